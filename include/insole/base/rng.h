@@ -1,0 +1,41 @@
+/** @file rng.h  Seeded random numbers: the same sequence on every machine.
+ *
+ *  The state is the caller's; equal seeds give equal sequences. The normal sampler is right in
+ *  the tails (it is not a sum of uniforms): beyond 5 sigma it still has the density it should.
+ *
+ *      insole_rng_t rng;
+ *      insole_rng_seed(&rng, 1);
+ *      x = insole_rng_normal(&rng);
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_BASE_RNG_H
+#define INSOLE_BASE_RNG_H
+
+#include "insole/base/real.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+    uint32_t word[4]; /**< never all zero */
+} insole_rng_t;
+
+/** Any seed is a good seed. */
+void insole_rng_seed(insole_rng_t *rng, uint64_t seed);
+
+/** 32 uniform bits. */
+uint32_t insole_rng_bits(insole_rng_t *rng);
+
+/** Uniform in [0, 1). */
+insole_real_t insole_rng_uniform(insole_rng_t *rng);
+
+/** Normal with mean 0 and standard deviation 1. */
+insole_real_t insole_rng_normal(insole_rng_t *rng);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

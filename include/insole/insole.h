@@ -1,0 +1,26 @@
+/** @file insole.h  Insole: where a walking person is, without GPS. Umbrella header.
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_INSOLE_H
+#define INSOLE_INSOLE_H
+
+#define INSOLE_VERSION_MAJOR 0
+#define INSOLE_VERSION_MINOR 1
+#define INSOLE_VERSION_PATCH 0
+#define INSOLE_VERSION "0.1.0"
+
+#include "insole/base/config.h"
+#include "insole/base/fastmath.h"
+#include "insole/base/mat.h"
+#include "insole/base/quat.h"
+#include "insole/base/real.h"
+#include "insole/base/ring.h"
+#include "insole/base/rng.h"
+#include "insole/base/snapshot.h"
+#include "insole/base/status.h"
+#include "insole/base/ticks.h"
+#include "insole/base/types.h"
+#include "insole/base/vec3.h"
+
+#endif
