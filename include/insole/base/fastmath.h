@@ -1,14 +1,18 @@
 /** @file fastmath.h  sin, cos, atan2, exp and log of our own: the same bits on every machine.
  *
  *  Only additions, multiplications, divisions and exponent arithmetic in IEEE single precision,
- *  compiled without contraction. In a build with INSOLE_DOUBLE they are those of libm.
+ *  compiled without contraction; no table, no loop, no division in sin, cos, exp and log. In a
+ *  build with INSOLE_DOUBLE the inside of the range is libm's, the outside is the same.
  *
- *  | function       | range of the promise | largest error | outside the range            |
- *  |----------------|----------------------|---------------|------------------------------|
- *  | insole_sin/cos | |x| <= 1e4 rad       | 2 ulp of 1    | finite, in [-1, 1]; nan->nan |
- *  | insole_atan2   | all finite           | 2 ulp         | nan->nan, (0, 0) gives 0     |
- *  | insole_exp     | -87 .. 88            | 2 ulp         | 0 below, largest real above  |
- *  | insole_log     | normal x > 0         | 2 ulp         | -largest for x <= 0          |
+ *  | function       | range of the promise    | error, ulp of the result | outside the range        |
+ *  |----------------|-------------------------|--------------------------|--------------------------|
+ *  | insole_sin/cos | |x| <= 1e4 rad          | 1.5, near the zeros too  | counts as x = 0          |
+ *  | insole_atan2   | all finite              | 1.6                      | as libm; (0, 0) gives 0  |
+ *  | insole_exp     | results that are normal | 1                        | 0 below, REAL_MAX above  |
+ *  | insole_log     | 0 < x <= REAL_MAX       | 1                        | -REAL_MAX, REAL_MAX over |
+ *  | insole_wrap_pi | |x| <= 1e4 rad          | 1.2 ulp of pi            | counts as x = 0          |
+ *
+ *  What is not a number stays so; everything else, infinities too, gives a finite result.
  *
  *  SPDX-License-Identifier: MIT
  */

@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/base/fastmath.h"
+
+/* Beyond this an angle in float32 is too coarse to mean a direction, and k * (first part of pi/2)
+ * would no longer be exact. */
+#define ANGLE_MAX_RAD INSOLE_R(1e4)
+
+static int32_t nearest(insole_real_t x)
+{
+    return (int32_t)(x < INSOLE_R(0.0) ? x - INSOLE_R(0.5) : x + INSOLE_R(0.5));
+}
+
+#ifdef INSOLE_DOUBLE
+
+#define EXP_ARGUMENT_MAX 709.78271289338397
+#define EXP_ARGUMENT_MIN (-708.39641853226408)
+
+/* x - k pi/2, pi/2 in two parts of which the first times k is exact. */
+static double minus_quarter_turns(double x, double k)
+{
+    return (x - k * 1.5703125) - k * 4.838267948966192e-4;
+}
+
+#define sin_of sin
+#define cos_of cos
+#define atan_of atan
+#define exp_of exp
+#define log_of log
+#define half_pi_minus(angle) (0.5 * INSOLE_PI - (angle))
+#define pi_minus(angle) (INSOLE_PI - (angle))
+
+#else
+
+typedef union {
+    float value;
+    uint32_t bits;
+} float_bits_t;
+
+enum { MANTISSA_BITS = 23, EXPONENT_BIAS = 127 };
+
+#define EXP_ARGUMENT_MAX 88.7228317f    /* largest whose exponential is not above FLT_MAX */
+#define EXP_ARGUMENT_MIN (-87.3365402f) /* smallest whose exponential is a normal number */
+
+static const float LN2_HI = 0.693145752f; /* 15 bits: times an exponent it is exact */
+static const float LN2_LO = 1.42860677e-6f;
+static const uint32_t SQRT_HALF_BITS = 0x3f3504f3u;
+
+/* x - k pi/2 for |k| < 2^13, rounded once. The first three parts of pi/2 have 11 bits: their
+ * products with k are exact, and so are the first two differences and what the third one loses. */
+static float minus_quarter_turns(float x, float k)
+{
+    float coarse = (x - k * 1.5703125f) - k * 4.83751297e-4f;
+    float fine = k * 7.54953362e-8f;
+    float r = coarse - fine;
+    float lost = (coarse - r) - fine;
+    return r + (lost - k * 2.56334407e-12f);
+}
+
+/* sin r for |r| <= pi/4; minimax, 2^-27.9. */
+static float sin_eighth(float r)
+{
+    float z = r * r;
+    float s = (-1.95180954e-4f * z + 8.33218824e-3f) * z - 0.166666552f;
+    return r + r * z * s;
+}
+
+/* cos r for |r| <= pi/4; minimax, 2^-33. */
+static float cos_eighth(float r)
+{
+    float z = r * r;
+    float c = (2.44323273e-5f * z - 1.38873095e-3f) * z + 0.0416666456f;
+    return 1.0f - (0.5f * z - z * z * c);
+}
+
+/* sin(x + quarters pi/2) */
+static float sin_shifted(float x, int32_t quarters)
+{
+    int32_t k = nearest(x * 0.636619772f);
+    float r = minus_quarter_turns(x, (float)k);
+    int32_t quadrant = k + quarters;
+    float s = (quadrant & 1) ? cos_eighth(r) : sin_eighth(r);
+    return (quadrant & 2) ? -s : s;
+}
+
+static float sin_of(float x)
+{
+    return sin_shifted(x, 0);
+}
+
+static float cos_of(float x)
+{
+    return sin_shifted(x, 1);
+}
+
+/* For 0 <= x <= 1; minimax, 2^-27.2. */
+static float atan_of(float x)
+{
+    float z = x * x;
+    float a = -1.79637293e-3f * z + 0.0109221786f;
+    a = a * z - 0.0311785471f;
+    a = a * z + 0.0579418801f;
+    a = a * z - 0.0840156749f;
+    a = a * z + 0.109512806f;
+    a = a * z - 0.142640367f;
+    a = a * z + 0.199985251f;
+    a = a * z - 0.333332986f;
+    return x + x * z * a;
+}
+
+static float pi_minus(float angle)
+{
+    return 3.14159274f - (angle + 8.74227766e-8f);
+}
+
+static float half_pi_minus(float angle)
+{
+    return 1.57079637f - (angle + 4.37113883e-8f);
+}
+
+/* 2^k exp(r), |r| <= ln(2)/2; minimax, 2^-28.2. */
+static float exp_of(float x)
+{
+    int32_t k = nearest(x * 1.44269504f);
+    float r = (x - (float)k * LN2_HI) - (float)k * LN2_LO;
+    float p = (1.3838897e-3f * r + 8.36919248e-3f) * r + 0.0416681021f;
+    p = (p * r + 0.166665167f) * r + 0.49999994f;
+    float_bits_t result = {1.0f + (r + r * r * p)};
+    result.bits += (uint32_t)k << MANTISSA_BITS;
+    return result.value;
+}
+
+/* x = 2^k (1 + f), 1 + f in [sqrt(1/2), sqrt(2)); minimax, 2^-27. */
+static float log_of(float x)
+{
+    bool subnormal = x < FLT_MIN;
+    float_bits_t m = {subnormal ? x * 8388608.0f : x};
+    uint32_t above = m.bits - SQRT_HALF_BITS + ((uint32_t)EXPONENT_BIAS << MANTISSA_BITS);
+    int32_t k = (int32_t)(above >> MANTISSA_BITS) - EXPONENT_BIAS;
+    m.bits -= (uint32_t)k << MANTISSA_BITS;
+    float f = m.value - 1.0f;
+    float p = (-0.0762306973f * f + 0.127661943f) * f - 0.131628081f;
+    p = (p * f + 0.142002791f) * f - 0.166228324f;
+    p = (p * f + 0.200012088f) * f - 0.250008494f;
+    p = p * f + 0.333333403f;
+    float e = (float)(subnormal ? k - MANTISSA_BITS : k);
+    return e * LN2_HI + (f + (e * LN2_LO + f * f * (f * p - 0.5f)));
+}
+
+#endif
+
+insole_real_t insole_sin(insole_real_t x_rad)
+{
+    if (!(insole_abs(x_rad) <= ANGLE_MAX_RAD)) {
+        return x_rad != x_rad ? x_rad : INSOLE_R(0.0);
+    }
+    return sin_of(x_rad);
+}
+
+insole_real_t insole_cos(insole_real_t x_rad)
+{
+    if (!(insole_abs(x_rad) <= ANGLE_MAX_RAD)) {
+        return x_rad != x_rad ? x_rad : INSOLE_R(1.0);
+    }
+    return cos_of(x_rad);
+}
+
+insole_real_t insole_atan2(insole_real_t y, insole_real_t x)
+{
+    if (x != x || y != y) {
+        return x + y;
+    }
+    insole_real_t width = insole_abs(x), height = insole_abs(y);
+    insole_real_t shorter = insole_min(width, height), longer = insole_max(width, height);
+    if (!(longer > INSOLE_R(0.0))) {
+        return INSOLE_R(0.0);
+    }
+    insole_real_t angle = atan_of(shorter < longer ? shorter / longer : INSOLE_R(1.0));
+    if (height > width) {
+        angle = half_pi_minus(angle);
+    }
+    if (x < INSOLE_R(0.0)) {
+        angle = pi_minus(angle);
+    }
+    return y < INSOLE_R(0.0) && angle < INSOLE_PI ? -angle : angle;
+}
+
+insole_real_t insole_exp(insole_real_t x)
+{
+    if (x > EXP_ARGUMENT_MAX) {
+        return INSOLE_REAL_MAX;
+    }
+    if (x < EXP_ARGUMENT_MIN) {
+        return INSOLE_R(0.0);
+    }
+    return x != x ? x : exp_of(x);
+}
+
+insole_real_t insole_log(insole_real_t x)
+{
+    if (x <= INSOLE_R(0.0)) {
+        return -INSOLE_REAL_MAX;
+    }
+    if (x > INSOLE_REAL_MAX) {
+        return INSOLE_REAL_MAX;
+    }
+    return x != x ? x : log_of(x);
+}
+
+insole_real_t insole_wrap_pi(insole_real_t angle_rad)
+{
+    if (!(angle_rad <= -INSOLE_PI || angle_rad > INSOLE_PI)) {
+        return angle_rad;
+    }
+    if (insole_abs(angle_rad) > ANGLE_MAX_RAD) {
+        return INSOLE_R(0.0);
+    }
+    int32_t turns = nearest(angle_rad * INSOLE_R(0.159154943091895336));
+    insole_real_t wrapped = minus_quarter_turns(angle_rad, (insole_real_t)(4 * turns));
+    if (wrapped > INSOLE_PI) {
+        return wrapped - INSOLE_R(2.0) * INSOLE_PI;
+    }
+    return wrapped <= -INSOLE_PI ? wrapped + INSOLE_R(2.0) * INSOLE_PI : wrapped;
+}
