@@ -1,0 +1,133 @@
+/** @file zupt_ekf.h  Foot-mounted inertial navigation with zero-velocity updates.
+ *
+ *  Source  [TwoOrder] 3.1, eqs. 12-31, tables 1-2, with the slips of the paper mended.
+ *  Frames  b: sensor on the shoe, any mounting.  n: local level, z up.
+ *  State   p v q and, if wanted, the accelerometer's bias b; the filter estimates their error
+ *          dx = [dp dv da db], eq. (18): p and v additive, R_true = (I + [da]x) R, b additive.
+ *          Nine states when `sigma_accel_bias_mps2` is 0, twelve otherwise.
+ *
+ *      static insole_zupt_ekf_t foot;
+ *      insole_zupt_ekf_init(&foot, &insole_zupt_ekf_defaults);
+ *      insole_zupt_ekf_align(&foot, mean_accel_while_standing_mps2, t_us);
+ *      on each sample:
+ *          insole_zupt_ekf_predict(&foot, &imu);
+ *          if (still) insole_zupt_ekf_correct(&foot, &nis);
+ *
+ *  A sample is taken as the mean over the time since the one before. The covariance is kept in
+ *  its 3x3 blocks; Phi = I + three blocks (five with the bias), H = [0 I 0 0].
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_MOVE_ZUPT_EKF_H
+#define INSOLE_MOVE_ZUPT_EKF_H
+
+#include "insole/base/config.h"
+#include "insole/base/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* clang-format off */
+#define INSOLE_ZUPT_EKF_KEYS(KEY)                                                                 \
+    KEY(REAL, gravity_mps2, 9.81, 9.7, 9.9, "m/s^2",                                              \
+        "gravity magnitude until a rest has told it")                                             \
+    KEY(REAL, sigma_tilt_rad, 0.01, 0.0001, 1.0, "rad",                                           \
+        "1-sigma of roll and pitch after alignment on a standing foot")                           \
+    KEY(REAL, accel_noise_mps_rts, 0.04, 0.0001, 10.0, "m/s/sqrt(s)",                             \
+        "velocity random walk: sensor noise and all that a first-order filter leaves out")        \
+    KEY(REAL, gyro_noise_rad_rts, 2.0e-4, 1.0e-6, 1.0, "rad/sqrt(s)",                             \
+        "attitude random walk at rest")                                                           \
+    KEY(REAL, gyro_turn_noise_rts, 1.5e-4, 0.0, 0.1, "sqrt(s)",                                   \
+        "attitude random walk per turn rate (scale, misalignment); 0 = off")                      \
+    KEY(REAL, clip_noise_rad_rts, 0.03, 0.0, 10.0, "rad/sqrt(s)",                                 \
+        "attitude random walk about an axis whose gyro is clipped; 0 = off")                      \
+    KEY(REAL, sigma_accel_bias_mps2, 0.05, 0.0, 1.0, "m/s^2",                                     \
+        "1-sigma of the accelerometer bias at the start; 0 = nine states, no bias")               \
+    KEY(REAL, accel_bias_walk_mps2_rts, 1.0e-4, 0.0, 0.1, "m/s^2/sqrt(s)",                        \
+        "random walk of the accelerometer bias")                                                  \
+    KEY(REAL, sigma_zupt_mps, 0.02, 0.0001, 1.0, "m/s",                                           \
+        "1-sigma of a stance's velocity over 5 ms; other intervals in proportion")                \
+    KEY(REAL, roll_height_m, 0.09, 0.0, 0.5, "m",                                                 \
+        "height of the sensor over the line the foot rolls on; 0 = a stance stands still")
+/* clang-format on */
+
+typedef struct {
+    INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_MEMBER)
+} insole_zupt_ekf_config_t;
+
+extern const insole_zupt_ekf_config_t insole_zupt_ekf_defaults;
+
+/** Covariance of dx in blocks: p position, v velocity, a attitude, b accelerometer bias. */
+typedef struct {
+    insole_sym3_t pp, vv, aa, bb;
+    insole_mat3_t pv, pa, va;
+    insole_mat3_t pb, vb, ab; /**< zero, and not computed, with nine states */
+} insole_zupt_cov_t;
+
+/** Process noise waiting to be added: singly it would be lost to rounding within hours. */
+typedef struct {
+    insole_real_t velocity_m2ps2; /**< on each axis of v */
+    insole_sym3_t attitude_rad2;  /**< on a */
+    insole_real_t bias_m2ps4;     /**< on each axis of b */
+    uint32_t samples;
+} insole_zupt_noise_t;
+
+typedef struct {
+    insole_zupt_ekf_config_t config;
+    bool aligned;
+    uint64_t t_us;                 /**< of the last sample */
+    insole_real_t dt_s;            /**< of the last interval */
+    insole_real_t gravity_mps2;
+    insole_vec3_t p_m, v_mps;      /**< n */
+    insole_quat_t q;               /**< b to n */
+    insole_vec3_t accel_bias_mps2; /**< b */
+    insole_mat3_t C;               /**< rotation matrix of q */
+    insole_vec3_t force_mps2;      /**< n, mean specific force of the last interval */
+    insole_vec3_t last_accel_mps2, last_gyro_radps; /**< b, of the last sample, bias removed */
+    insole_zupt_cov_t P;
+    insole_zupt_noise_t noise;
+    uint32_t refused;              /**< calls answered with a negative status */
+} insole_zupt_ekf_t;
+
+/** Position zero, not aligned.
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf, const insole_zupt_ekf_config_t *config);
+
+/** Roll and pitch from the specific force of a standing foot, [TwoOrder] table 1; yaw becomes
+ *  `yaw_rad`, velocity zero, position stays. Covariance: position as before alignment (zero at
+ *  the first), velocity and yaw known, tilt `sigma_tilt_rad`.
+ *  @param mean_accel_mps2 b; its length must lie between a half and twice gravity
+ *  @return INSOLE_ERR_VALUE */
+insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf, insole_vec3_t mean_accel_mps2,
+                                      insole_real_t sigma_tilt_rad, insole_real_t yaw_rad,
+                                      uint64_t t_us);
+
+/** Mechanisation (12)-(17) and covariance (19)-(24) up to `imu->t_us`.
+ *  @param imu  gyro bias already removed
+ *  @param clipped bit m set: the gyro of body axis m is at the end of its range
+ *  @return INSOLE_ERR_STATE before alignment, INSOLE_ERR_TIME, INSOLE_ERR_VALUE (not finite, or
+ *          a step of more than one second: use insole_zupt_ekf_coast) */
+insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu_t *imu,
+                                        uint32_t clipped);
+
+/** Zero-velocity correction (22)-(31): the foot rolls over the ground below the sensor.
+ *  @param[out] nis  normalised innovation squared, chi2(3) when consistent; NULL to skip
+ *  @return INSOLE_ERR_STATE before alignment or when the innovation's covariance is not positive */
+insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *nis);
+
+/** Correction by a known height: z = `height_m` with 1-sigma `sigma_m` (> 0). */
+insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ekf, insole_real_t height_m,
+                                               insole_real_t sigma_m);
+
+/** Carries on without samples up to `t_us`: moves with `velocity_mps`, which is known to
+ *  `sigma_mps` per axis; the position's covariance grows, attitude stays as it was.
+ *  @return INSOLE_ERR_STATE before alignment, INSOLE_ERR_TIME, INSOLE_ERR_VALUE */
+insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf, insole_vec3_t velocity_mps,
+                                      insole_real_t sigma_mps, uint64_t t_us);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,114 @@
+/** @file screen.h  Repairs and counts bad samples before anything else sees them.
+ *
+ *  Handled: stamps that repeat or go back, a single wild stamp, fields that are not a number,
+ *  values no foot can produce, single-sample spikes, gyros at the end of their range, gaps, and
+ *  rates above `max_rate_hz` (averaged down: a mean keeps what a pick would lose).
+ *
+ *  Frames  b: sensor, any mounting. One sample is held back, so that a spike shows.
+ *
+ *      static insole_screen_t screen;
+ *      insole_screen_init(&screen, &insole_screen_defaults);
+ *      on each sample:
+ *          if (insole_screen_push(&screen, &raw, &clean) == INSOLE_OK) use(&clean);
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_SENSE_SCREEN_H
+#define INSOLE_SENSE_SCREEN_H
+
+#include "insole/base/config.h"
+#include "insole/base/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* clang-format off */
+#define INSOLE_SCREEN_KEYS(KEY)                                                                   \
+    KEY(REAL, max_rate_hz, 250.0, 40.0, 256.0, "Hz", "faster samples are averaged down to it")    \
+    KEY(REAL, gap_s, 0.1, 0.02, 1.0, "s", "a longer interval is a gap")                           \
+    KEY(REAL, hold_s, 0.03, 0.0, 1.0, "s",                                                        \
+        "a field that is not a number is held this long; then the sample is dropped")             \
+    KEY(REAL, spike_accel_mps2, 150.0, 1.0, 1.0e6, "m/s^2",                                       \
+        "a single sample this far from both neighbours is a spike; 1e6 = off")                    \
+    KEY(REAL, spike_gyro_radps, 8.0, 0.1, 1.0e6, "rad/s", "the same for the gyro; 1e6 = off")     \
+    KEY(REAL, gyro_range_radps, 0.0, 0.0, 100.0, "rad/s",                                         \
+        "end of the gyro's range where it is known; 0 = recognised as it clips")                  \
+    KEY(REAL, clip_share, 0.92, 0.5, 1.0, "",                                                     \
+        "share of its range from which a gyro axis counts as clipped")
+/* clang-format on */
+
+typedef struct {
+    INSOLE_SCREEN_KEYS(INSOLE_CONFIG_MEMBER)
+} insole_screen_config_t;
+
+extern const insole_screen_config_t insole_screen_defaults;
+
+/** What happened so far. */
+typedef struct {
+    uint32_t samples;    /**< came in */
+    uint32_t repeated;   /**< same stamp as before: dropped */
+    uint32_t backward;   /**< stamp before the last one: dropped */
+    uint32_t wild;       /**< single stamp far ahead: dropped */
+    uint32_t not_finite; /**< a field not a number or beyond all reason: held or dropped */
+    uint32_t spikes;     /**< single-sample spikes replaced by the mean of their neighbours */
+    uint32_t clipped;    /**< samples with a gyro axis at the end of its range */
+    uint32_t gaps;       /**< intervals longer than gap_s */
+    uint32_t averaged;   /**< joined with their neighbours to keep the rate down */
+} insole_screen_counts_t;
+
+/** Bits of insole_clean_t.marks. */
+enum {
+    INSOLE_MARK_CLIP_X = 1,
+    INSOLE_MARK_CLIP_Y = 2,
+    INSOLE_MARK_CLIP_Z = 4,
+    INSOLE_MARK_CLIP = 7,
+    INSOLE_MARK_GAP = 8 /**< nothing is known of the time since the sample before */
+};
+
+/** A sample that may be used. */
+typedef struct {
+    insole_imu_t imu;
+    uint8_t marks;
+} insole_clean_t;
+
+/** Where one gyro axis ends, learned from flat tops. */
+typedef struct {
+    insole_real_t level_radps; /**< largest flat top seen; 0 before the first */
+    insole_real_t top_radps;   /**< of the run being watched */
+    uint32_t run_us;           /**< how long it has been flat */
+} insole_clip_t;
+
+typedef struct {
+    insole_screen_config_t config;
+    insole_screen_counts_t counts;
+    insole_clean_t before, pending; /**< `pending` waits for its successor */
+    uint32_t held;                  /**< of these two, how many there are */
+    bool has_spare;                 /**< `pending` has gone out already */
+    uint64_t last_us;               /**< stamp of the last sample taken in */
+    uint64_t good_us;               /**< stamp of the last sample without a bad field */
+    insole_clip_t clip[3];
+    insole_vec3_t sum_accel, sum_gyro; /**< of the samples being averaged, weighted by time */
+    insole_real_t sum_s;
+    uint8_t sum_marks;
+    uint32_t sum_count;
+    uint64_t out_us; /**< stamp of the last clean sample */
+    bool has_out;
+} insole_screen_t;
+
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_config_t *config);
+
+/** Takes a sample, whatever it holds. @param[out] clean  written only with INSOLE_OK
+ *  @return INSOLE_OK: a clean sample is out; INSOLE_ERR_STATE: none this time */
+insole_status_t insole_screen_push(insole_screen_t *screen, const insole_imu_t *raw,
+                                   insole_clean_t *clean);
+
+/** The sample that was held back; call until it answers INSOLE_ERR_STATE. */
+insole_status_t insole_screen_finish(insole_screen_t *screen, insole_clean_t *clean);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

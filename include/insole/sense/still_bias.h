@@ -1,0 +1,90 @@
+/** @file still_bias.h  Gyro bias and gravity from moments of real rest.
+ *
+ *  A stance is not a rest: the foot rolls while it stands, and a bias learned there is wrong. The
+ *  stream is cut into blocks of an eighth of a second; only two blocks in a row that are quiet and
+ *  agree with each other count, and the less they agree the less they count.
+ *
+ *  Frames  b: sensor, any mounting.
+ *
+ *      static insole_still_bias_t rest;
+ *      insole_still_bias_init(&rest, &insole_still_bias_defaults);
+ *      on each sample:
+ *          insole_still_bias_push(&rest, &imu);
+ *          gyro = insole_vec3_sub(imu.gyro_radps, rest.gyro_bias_radps);
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_SENSE_STILL_BIAS_H
+#define INSOLE_SENSE_STILL_BIAS_H
+
+#include "insole/base/config.h"
+#include "insole/base/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* clang-format off */
+#define INSOLE_STILL_BIAS_KEYS(KEY)                                                               \
+    KEY(REAL, block_s, 0.125, 0.02, 2.0, "s", "length of a block")                                \
+    KEY(REAL, quiet_gyro_radps, 0.025, 0.0, 1.0, "rad/s",                                         \
+        "largest standard deviation of a gyro axis at rest; 0 = no bias is learned")              \
+    KEY(REAL, quiet_accel_mps2, 0.1, 0.0, 10.0, "m/s^2",                                          \
+        "largest standard deviation of an accelerometer axis at rest")                            \
+    KEY(REAL, agree_radps, 0.015, 0.0, 1.0, "rad/s",                                              \
+        "largest difference of the gyro means of two blocks in a row")                            \
+    KEY(REAL, sigma_bias_radps, 0.015, 1.0e-6, 1.0, "rad/s", "1-sigma of the bias when switched on") \
+    KEY(REAL, bias_walk_radps_rts, 2.0e-4, 0.0, 0.1, "rad/s/sqrt(s)", "random walk of the bias")  \
+    KEY(REAL, sigma_block_radps, 0.0015, 1.0e-6, 1.0, "rad/s",                                    \
+        "1-sigma of the mean of two blocks that agree perfectly")                                 \
+    KEY(REAL, agree_weight, 3.0, 0.0, 100.0, "",                                                  \
+        "how much their difference adds to it")                                                   \
+    KEY(REAL, gravity_s, 4.0, 0.0, 3600.0, "s",                                                   \
+        "rests this soon after the first sample tell the magnitude of gravity; 0 = never")        \
+    KEY(REAL, gravity_mps2, 9.81, 9.7, 9.9, "m/s^2", "gravity magnitude without such a rest")
+/* clang-format on */
+
+typedef struct {
+    INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_MEMBER)
+} insole_still_bias_config_t;
+
+extern const insole_still_bias_config_t insole_still_bias_defaults;
+
+/** Sums over one block, and what became of them. Values are taken relative to the block's first
+ *  sample, so that the squares do not drown in gravity. */
+typedef struct {
+    uint64_t begin_us;
+    insole_vec3_t accel0_mps2, gyro0_radps;
+    insole_vec3_t accel, gyro;   /**< sums of differences to the first sample */
+    insole_vec3_t accel2, gyro2; /**< sums of their squares, per axis */
+    uint32_t count;
+} insole_still_block_t;
+
+typedef struct {
+    insole_still_bias_config_t config;
+    insole_vec3_t gyro_bias_radps;
+    insole_vec3_t variance_radps2;  /**< of the bias, per axis */
+    insole_real_t gravity_mps2;
+    uint64_t first_us, last_us;
+    insole_still_block_t block;     /**< being filled */
+    insole_vec3_t mean_accel_mps2, mean_gyro_radps; /**< of the block before */
+    insole_vec3_t var_accel, var_gyro;              /**< of the block before */
+    uint32_t blocks;                /**< blocks in a row without a gap, 2 at most */
+    uint32_t rests;                 /**< times the bias was learned */
+    uint32_t gravity_rests;         /**< of these, used for gravity */
+    bool has_first;
+    uint32_t refused;
+} insole_still_bias_t;
+
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
+                                       const insole_still_bias_config_t *config);
+
+/** @return INSOLE_ERR_TIME, INSOLE_ERR_VALUE for a sample that is not finite */
+insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_imu_t *imu);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

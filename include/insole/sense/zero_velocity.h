@@ -1,0 +1,163 @@
+/** @file zero_velocity.h  Is the foot still? A delay line: samples go in, labelled samples come out.
+ *
+ *  Source  [TwoOrder] 2.2 and 4.3 for the two-step logic; the likelihood ratio of a resting sensor
+ *          (SHOE), its parts MV, MAG and ARE; an adaptive detector of our own.
+ *  Frames  b: sensor on the shoe; only lengths and spreads are used, any mounting will do.
+ *
+ *      static insole_zero_velocity_t stance;
+ *      insole_zero_velocity_init(&stance, &insole_zero_velocity_defaults);
+ *      on each sample:
+ *          insole_zero_velocity_push(&stance, &imu);
+ *          while (insole_zero_velocity_next(&stance, &out) == INSOLE_OK) use(&out.imu, out.still);
+ *
+ *  All detectors work on a statistic of a short centred window, held as running sums:
+ *
+ *      SHOE  (mean|a|^2 - 2 g |mean a| + g^2) / sa^2 + mean|w|^2 / sw^2
+ *      MV    (mean|a|^2 - |mean a|^2) / sa^2
+ *      MAG   (mean|a|^2 - 2 g mean|a| + g^2) / sa^2
+ *      ARE   mean|w|^2 / sw^2
+ *
+ *  and a threshold. The adaptive one takes SHOE below its threshold as a plain stance and, where
+ *  none is near, the least still moment of each gait cycle as a guaranteed one: nobody walks
+ *  without putting the foot down. It looks `reach_s` + `spread_s` ahead.
+ *
+ *  Samples come 250 times a second at most (sense/screen averages faster ones).
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_SENSE_ZERO_VELOCITY_H
+#define INSOLE_SENSE_ZERO_VELOCITY_H
+
+#include "insole/base/config.h"
+#include "insole/base/ring.h"
+#include "insole/base/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    INSOLE_STANCE_RING = 128,  /**< samples in the delay line: half a second at 250 Hz */
+    INSOLE_STANCE_PAST = 8,    /**< blocks in which the past minimum of the statistic is kept */
+    INSOLE_STANCE_WINDOW = 15  /**< longest window of the statistic [samples] */
+};
+
+typedef enum {
+    INSOLE_DETECT_ADAPTIVE = 0,
+    INSOLE_DETECT_TWO_STEP = 1,
+    INSOLE_DETECT_SHOE = 2,
+    INSOLE_DETECT_MV = 3,
+    INSOLE_DETECT_MAG = 4,
+    INSOLE_DETECT_ARE = 5
+} insole_detector_t;
+
+/* clang-format off */
+#define INSOLE_ZERO_VELOCITY_KEYS(KEY)                                                            \
+    KEY(CHOICE, detector, 0, 0, 5, "adaptive|two-step|shoe|mv|mag|are",                           \
+        "what tells a still foot")                                                                \
+    KEY(REAL, window_s, 0.03, 0.0, 0.2, "s",                                                      \
+        "window of the statistic; at least three samples are taken")                              \
+    KEY(REAL, gravity_mps2, 9.81, 9.7, 9.9, "m/s^2", "gravity magnitude")                         \
+    KEY(REAL, sigma_accel_mps2, 0.01, 0.0001, 1.0, "m/s^2", "scale of the accelerometer's part")  \
+    KEY(REAL, sigma_gyro_radps, 0.00174533, 0.0001, 1.0, "rad/s", "scale of the gyro's part")     \
+    KEY(REAL, plain_threshold, 4.0e4, 1.0, 1.0e9, "", "adaptive: SHOE below it is a stance")      \
+    KEY(REAL, guaranteed_threshold, 1.0e6, 1.0, 1.0e9, "",                                        \
+        "adaptive: no minimum above it is a stance")                                              \
+    KEY(REAL, reach_s, 0.4, 0.1, 0.4, "s",                                                        \
+        "adaptive: a guaranteed stance is the minimum over this time to both sides")              \
+    KEY(REAL, spread_s, 0.05, 0.0, 0.05, "s",                                                     \
+        "adaptive: how far a guaranteed stance reaches to both sides")                            \
+    KEY(REAL, spread_factor, 4.0, 1.0, 100.0, "",                                                 \
+        "adaptive: and up to how many times its minimum")                                         \
+    KEY(REAL, early_share, 0.7, 0.0, 1.0, "",                                                     \
+        "adaptive: a minimum before this share of the gait period must be as still as usual")     \
+    KEY(REAL, early_log, 0.7, 0.0, 10.0, "",                                                      \
+        "adaptive: how far above the usual ln(statistic) such a minimum may lie")                 \
+    KEY(REAL, shoe_threshold, 1.0e5, 1.0, 1.0e9, "", "shoe: still below it")                      \
+    KEY(REAL, mv_threshold, 2.0e4, 1.0, 1.0e9, "", "mv: still below it")                          \
+    KEY(REAL, mag_threshold, 2.0e4, 1.0, 1.0e9, "", "mag: still below it")                        \
+    KEY(REAL, are_threshold, 1.0e5, 1.0, 1.0e9, "", "are: still below it")                        \
+    KEY(REAL, two_step_accel_mps2, 1.0, 0.01, 20.0, "m/s^2",                                      \
+        "two-step: largest | |a| - g | of a still sample")                                        \
+    KEY(REAL, two_step_gyro_radps, 0.6, 0.01, 20.0, "rad/s",                                      \
+        "two-step: largest |w| of a still sample")                                                \
+    KEY(REAL, two_step_hole_s, 0.05, 0.0, 0.2, "s",                                               \
+        "two-step: a shorter run of moving samples between still ones is still")
+/* clang-format on */
+
+typedef struct {
+    INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_MEMBER)
+} insole_zero_velocity_config_t;
+
+extern const insole_zero_velocity_config_t insole_zero_velocity_defaults;
+
+/** A sample that leaves the delay line. */
+typedef struct {
+    insole_imu_t imu;
+    insole_real_t statistic; /**< of the window around it */
+    uint8_t tag;             /**< what the caller pushed with it */
+    bool still;
+    bool plain;              /**< still by threshold, not by guarantee */
+} insole_labelled_t;
+
+/** One slot of the delay line. */
+typedef struct {
+    insole_vec3_t accel_mps2, gyro_radps;
+    insole_real_t statistic;
+    uint32_t t_us; /**< low half of the stamp */
+    uint8_t tag;   /**< the caller's, and the label */
+    uint8_t label;
+} insole_stance_slot_t;
+
+/** Running sums over the window; `fresh` is summed anew and takes over each time it is full, so
+ *  that rounding cannot gather. */
+typedef struct {
+    insole_vec3_t accel;
+    insole_real_t accel2, accel_norm, gyro2;
+} insole_stance_sums_t;
+
+typedef struct {
+    insole_zero_velocity_config_t config;
+    insole_ring_t ring;
+    insole_stance_slot_t slots[INSOLE_STANCE_RING];
+    uint64_t newest_us;
+    uint32_t reach_us, spread_us, hole_us; /**< settings in microseconds */
+    uint32_t half;        /**< half window [samples]; 0 until the rate is known */
+    uint32_t measured;    /**< running number of the next slot whose statistic is to be formed */
+    uint32_t judged;      /**< running number of the next slot to be judged */
+    insole_stance_sums_t sums, fresh;
+    uint32_t fresh_count;
+    bool has_window;
+    insole_real_t past[INSOLE_STANCE_PAST]; /**< minima of the statistic in blocks of the past */
+    uint32_t past_at;         /**< index of the block being filled */
+    uint32_t past_began_us;   /**< low half of the time at which it began */
+    uint32_t last_still_us;   /**< low half of the stamp of the last still sample */
+    uint32_t last_stance_us;  /**< of the last stance's first sample or minimum */
+    bool has_still, has_stance;
+    insole_real_t period_s;   /**< running mean of the gait period */
+    insole_real_t usual_log;  /**< running mean of ln(statistic) of stances */
+    bool finished;
+    uint32_t refused;
+} insole_zero_velocity_t;
+
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
+                                          const insole_zero_velocity_config_t *config);
+
+/** Takes a sample. `tag` travels with it.
+ *  @return INSOLE_ERR_TIME, INSOLE_ERR_VALUE, INSOLE_ERR_STATE after finish, INSOLE_ERR_ROOM when
+ *          the delay line is full: take some out first */
+insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const insole_imu_t *imu,
+                                          uint8_t tag);
+
+/** The oldest sample whose label is certain. @return INSOLE_ERR_STATE when there is none yet */
+insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out);
+
+/** No more samples will come: those still held are judged by what there is. */
+insole_status_t insole_zero_velocity_finish(insole_zero_velocity_t *zv);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/sense/still_bias.h"
+
+#define ZERO INSOLE_R(0.0)
+
+/* A block with an interval longer than this is thrown away. */
+static const uint32_t GAP_US = 100000u;
+
+/* A gravity that a rest may tell; farther off, the sensor's scale or unit is wrong. */
+static const insole_real_t GRAVITY_SPREAD_MPS2 = INSOLE_R(0.5);
+
+const insole_still_bias_config_t insole_still_bias_defaults = {
+    INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_DEFAULT)};
+
+insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
+                                       const insole_still_bias_config_t *config)
+{
+    if (!rest || !config) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!(true INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+        return INSOLE_ERR_VALUE;
+    }
+    static const insole_still_bias_t blank;
+    *rest = blank;
+    rest->config = *config;
+    rest->gravity_mps2 = config->gravity_mps2;
+    insole_real_t variance = insole_square(config->sigma_bias_radps);
+    rest->variance_radps2 = insole_vec3(variance, variance, variance);
+    return INSOLE_OK;
+}
+
+static insole_vec3_t squares(insole_vec3_t v)
+{
+    return insole_vec3(v.x * v.x, v.y * v.y, v.z * v.z);
+}
+
+static void block_begin(insole_still_block_t *block, const insole_imu_t *imu)
+{
+    static const insole_still_block_t blank;
+    *block = blank;
+    block->begin_us = imu->t_us;
+    block->accel0_mps2 = imu->accel_mps2;
+    block->gyro0_radps = imu->gyro_radps;
+}
+
+static void block_add(insole_still_block_t *block, const insole_imu_t *imu)
+{
+    insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, block->accel0_mps2);
+    insole_vec3_t gyro = insole_vec3_sub(imu->gyro_radps, block->gyro0_radps);
+    block->accel = insole_vec3_add(block->accel, accel);
+    block->gyro = insole_vec3_add(block->gyro, gyro);
+    block->accel2 = insole_vec3_add(block->accel2, squares(accel));
+    block->gyro2 = insole_vec3_add(block->gyro2, squares(gyro));
+    block->count++;
+}
+
+/* Largest variance over the axes of two blocks joined. */
+static insole_real_t joint_variance(insole_vec3_t mean_a, insole_vec3_t var_a, insole_vec3_t mean_b,
+                                    insole_vec3_t var_b)
+{
+    insole_vec3_t half_apart = insole_vec3_scale(insole_vec3_sub(mean_a, mean_b), INSOLE_R(0.5));
+    insole_vec3_t within = insole_vec3_scale(insole_vec3_add(var_a, var_b), INSOLE_R(0.5));
+    return insole_vec3_max_abs(insole_vec3_add(within, squares(half_apart)));
+}
+
+static void learn_axis(insole_real_t *bias, insole_real_t *variance, insole_real_t measured,
+                       insole_real_t measured_var)
+{
+    insole_real_t gain = *variance / (*variance + measured_var);
+    *bias += gain * (measured - *bias);
+    *variance *= INSOLE_R(1.0) - gain;
+}
+
+static void learn_bias(insole_still_bias_t *rest, insole_vec3_t measured, insole_real_t apart)
+{
+    const insole_still_bias_config_t *c = &rest->config;
+    insole_real_t var =
+        insole_square(c->agree_weight * apart) + insole_square(c->sigma_block_radps);
+    learn_axis(&rest->gyro_bias_radps.x, &rest->variance_radps2.x, measured.x, var);
+    learn_axis(&rest->gyro_bias_radps.y, &rest->variance_radps2.y, measured.y, var);
+    learn_axis(&rest->gyro_bias_radps.z, &rest->variance_radps2.z, measured.z, var);
+    rest->rests++;
+}
+
+static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
+{
+    insole_real_t since_s = (insole_real_t)(rest->last_us - rest->first_us) * INSOLE_R(1.0e-6);
+    insole_real_t g = insole_vec3_norm(mean_accel);
+    if (since_s > rest->config.gravity_s ||
+        insole_abs(g - rest->config.gravity_mps2) > GRAVITY_SPREAD_MPS2) {
+        return;
+    }
+    rest->gravity_rests++;
+    insole_real_t weight = INSOLE_R(1.0) / (insole_real_t)rest->gravity_rests;
+    rest->gravity_mps2 = rest->gravity_rests == 1u
+                             ? g
+                             : rest->gravity_mps2 + weight * (g - rest->gravity_mps2);
+}
+
+/* A full block against the one before. */
+static void block_end(insole_still_bias_t *rest)
+{
+    const insole_still_bias_config_t *c = &rest->config;
+    insole_still_block_t *b = &rest->block;
+    insole_real_t per_n = INSOLE_R(1.0) / (insole_real_t)b->count;
+    insole_vec3_t accel = insole_vec3_scale(b->accel, per_n), gyro = insole_vec3_scale(b->gyro, per_n);
+    insole_vec3_t var_accel = insole_vec3_sub(insole_vec3_scale(b->accel2, per_n), squares(accel));
+    insole_vec3_t var_gyro = insole_vec3_sub(insole_vec3_scale(b->gyro2, per_n), squares(gyro));
+    accel = insole_vec3_add(accel, b->accel0_mps2);
+    gyro = insole_vec3_add(gyro, b->gyro0_radps);
+    insole_real_t walk = insole_square(c->bias_walk_radps_rts) * c->block_s;
+    rest->variance_radps2 = insole_vec3_add(rest->variance_radps2, insole_vec3(walk, walk, walk));
+    insole_real_t apart = insole_vec3_max_abs(insole_vec3_sub(gyro, rest->mean_gyro_radps));
+    if (rest->blocks > 0u && apart < c->agree_radps &&
+        joint_variance(gyro, var_gyro, rest->mean_gyro_radps, rest->var_gyro) <
+            insole_square(c->quiet_gyro_radps) &&
+        joint_variance(accel, var_accel, rest->mean_accel_mps2, rest->var_accel) <
+            insole_square(c->quiet_accel_mps2)) {
+        insole_vec3_t both = insole_vec3_add(gyro, rest->mean_gyro_radps);
+        learn_bias(rest, insole_vec3_scale(both, INSOLE_R(0.5)), apart);
+        both = insole_vec3_add(accel, rest->mean_accel_mps2);
+        learn_gravity(rest, insole_vec3_scale(both, INSOLE_R(0.5)));
+    }
+    rest->mean_accel_mps2 = accel;
+    rest->mean_gyro_radps = gyro;
+    rest->var_accel = var_accel;
+    rest->var_gyro = var_gyro;
+    rest->blocks = 1u;
+}
+
+insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_imu_t *imu)
+{
+    if (!rest || !imu) {
+        return INSOLE_ERR_NULL;
+    }
+    bool finite = insole_vec3_is_finite(imu->accel_mps2) && insole_vec3_is_finite(imu->gyro_radps);
+    if (!finite || (rest->has_first && imu->t_us <= rest->last_us)) {
+        rest->refused++;
+        return finite ? INSOLE_ERR_TIME : INSOLE_ERR_VALUE;
+    }
+    if (!rest->has_first || imu->t_us - rest->last_us > GAP_US) {
+        rest->first_us = rest->has_first ? rest->first_us : imu->t_us;
+        rest->has_first = true;
+        rest->blocks = 0u;
+        block_begin(&rest->block, imu);
+    }
+    rest->last_us = imu->t_us;
+    block_add(&rest->block, imu);
+    insole_real_t length_s = (insole_real_t)(uint32_t)(imu->t_us - rest->block.begin_us) * INSOLE_R(1.0e-6);
+    if (length_s >= rest->config.block_s && rest->block.count > 2u) {
+        block_end(rest);
+        block_begin(&rest->block, imu);
+    }
+    return INSOLE_OK;
+}

@@ -1,0 +1,436 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/sense/zero_velocity.h"
+
+#include "insole/base/fastmath.h"
+
+#define ZERO INSOLE_R(0.0)
+#define ONE INSOLE_R(1.0)
+
+enum {
+    RATE_SAMPLES = 16, /* samples from which the window's length is found */
+    CATCH_UP = 2,      /* windows formed per push at most */
+    LABEL_STILL = 1,
+    LABEL_PLAIN = 2
+};
+
+static const insole_real_t FIRST_PERIOD_S = INSOLE_R(1.0);
+static const insole_real_t SHORTEST_PERIOD_S = INSOLE_R(0.3);
+static const insole_real_t LONGEST_PERIOD_S = INSOLE_R(1.6);
+static const insole_real_t HABIT_WEIGHT = INSOLE_R(0.25);
+static const uint32_t LONGEST_INTERVAL_US = 50000u; /* of a rate that is worth measuring */
+
+const insole_zero_velocity_config_t insole_zero_velocity_defaults = {
+    INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_DEFAULT)};
+
+static uint32_t microseconds(insole_real_t s)
+{
+    return (uint32_t)(s * INSOLE_R(1.0e6) + INSOLE_R(0.5));
+}
+
+insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
+                                          const insole_zero_velocity_config_t *config)
+{
+    if (!zv || !config) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!(true INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+        return INSOLE_ERR_VALUE;
+    }
+    static const insole_zero_velocity_t blank;
+    *zv = blank;
+    zv->config = *config;
+    zv->ring = insole_ring(INSOLE_STANCE_RING);
+    zv->reach_us = microseconds(config->reach_s);
+    zv->spread_us = microseconds(config->spread_s);
+    zv->hole_us = microseconds(config->two_step_hole_s);
+    zv->period_s = FIRST_PERIOD_S;
+    zv->usual_log = insole_log(config->plain_threshold);
+    for (uint32_t i = 0u; i < INSOLE_STANCE_PAST; i++) {
+        zv->past[i] = INSOLE_REAL_MAX;
+    }
+    return INSOLE_OK;
+}
+
+static insole_stance_slot_t *slot(insole_zero_velocity_t *zv, uint32_t number)
+{
+    return &zv->slots[insole_ring_slot(&zv->ring, number)];
+}
+
+static insole_real_t seconds(uint32_t from_us, uint32_t to_us)
+{
+    return (insole_real_t)(to_us - from_us) * INSOLE_R(1.0e-6);
+}
+
+/* ---- the statistic ---------------------------------------------------------------------- */
+
+static void sums_add(insole_stance_sums_t *sums, const insole_stance_slot_t *s, insole_real_t sign)
+{
+    insole_real_t accel2 = insole_vec3_norm2(s->accel_mps2);
+    sums->accel = insole_vec3_add_scaled(sums->accel, sign, s->accel_mps2);
+    sums->accel2 += sign * accel2;
+    sums->accel_norm += sign * insole_sqrt(accel2);
+    sums->gyro2 += sign * insole_vec3_norm2(s->gyro_radps);
+}
+
+/* The sample as such, in units of the two thresholds: still below 1. Step one of [TwoOrder] 4.3. */
+static insole_real_t two_step_statistic(const insole_zero_velocity_config_t *c,
+                                        const insole_stance_slot_t *s)
+{
+    insole_real_t accel = insole_abs(insole_vec3_norm(s->accel_mps2) - c->gravity_mps2);
+    insole_real_t gyro = insole_vec3_norm(s->gyro_radps);
+    return insole_max(accel / c->two_step_accel_mps2, gyro / c->two_step_gyro_radps);
+}
+
+static insole_real_t window_statistic(const insole_zero_velocity_config_t *c,
+                                      const insole_stance_sums_t *sums, insole_real_t per_n)
+{
+    insole_real_t g = c->gravity_mps2;
+    insole_real_t accel2 = sums->accel2 * per_n;
+    insole_real_t gyro = sums->gyro2 * per_n / insole_square(c->sigma_gyro_radps);
+    insole_real_t per_var = ONE / insole_square(c->sigma_accel_mps2);
+    insole_real_t mean2 = insole_vec3_norm2(sums->accel) * insole_square(per_n);
+    switch ((insole_detector_t)c->detector) {
+    case INSOLE_DETECT_MV:
+        return (accel2 - mean2) * per_var;
+    case INSOLE_DETECT_MAG:
+        return (accel2 - INSOLE_R(2.0) * g * sums->accel_norm * per_n + g * g) * per_var;
+    case INSOLE_DETECT_ARE:
+        return gyro;
+    default:
+        return (accel2 - INSOLE_R(2.0) * g * insole_sqrt(mean2) + g * g) * per_var + gyro;
+    }
+}
+
+/* Half window from the mean interval of the first samples; gaps among them do not count. */
+static void learn_window(insole_zero_velocity_t *zv)
+{
+    uint32_t sum_us = 0u, intervals = 0u;
+    for (uint32_t i = zv->ring.begin + 1u; i != zv->ring.end; i++) {
+        uint32_t dt_us = slot(zv, i)->t_us - slot(zv, i - 1u)->t_us;
+        if (dt_us <= LONGEST_INTERVAL_US) {
+            sum_us += dt_us;
+            intervals++;
+        }
+    }
+    insole_real_t half = ONE;
+    if (intervals > 0u) {
+        insole_real_t dt_s = (insole_real_t)sum_us * INSOLE_R(1.0e-6) / (insole_real_t)intervals;
+        half = INSOLE_R(0.5) * zv->config.window_s / dt_s;
+    }
+    half = insole_min(insole_max(half, ONE), (insole_real_t)(INSOLE_STANCE_WINDOW / 2));
+    zv->half = (uint32_t)(half + INSOLE_R(0.001));
+}
+
+/* First window: its statistic serves the samples before its middle as well. */
+static void measure_first(insole_zero_velocity_t *zv)
+{
+    uint32_t width = 2u * zv->half + 1u;
+    for (uint32_t i = 0u; i < width; i++) {
+        sums_add(&zv->sums, slot(zv, zv->ring.begin + i), ONE);
+    }
+    insole_real_t T = window_statistic(&zv->config, &zv->sums, ONE / (insole_real_t)width);
+    for (uint32_t i = 0u; i <= zv->half; i++) {
+        slot(zv, zv->ring.begin + i)->statistic = T;
+    }
+    zv->measured = zv->ring.begin + zv->half + 1u;
+    zv->has_window = true;
+}
+
+/* The window moves on by one sample. */
+static void measure_next(insole_zero_velocity_t *zv)
+{
+    uint32_t width = 2u * zv->half + 1u;
+    const insole_stance_slot_t *arriving = slot(zv, zv->measured + zv->half);
+    const insole_stance_slot_t *leaving = slot(zv, zv->measured - zv->half - 1u);
+    sums_add(&zv->fresh, arriving, ONE);
+    if (++zv->fresh_count == width) {
+        static const insole_stance_sums_t none;
+        zv->sums = zv->fresh;
+        zv->fresh = none;
+        zv->fresh_count = 0u;
+    } else {
+        sums_add(&zv->sums, arriving, ONE);
+        sums_add(&zv->sums, leaving, -ONE);
+    }
+    slot(zv, zv->measured)->statistic =
+        window_statistic(&zv->config, &zv->sums, ONE / (insole_real_t)width);
+    zv->measured++;
+}
+
+static void measure(insole_zero_velocity_t *zv, uint32_t at_most)
+{
+    uint32_t count = insole_ring_count(&zv->ring);
+    if (zv->half == 0u && (count >= RATE_SAMPLES || zv->finished)) {
+        learn_window(zv);
+    }
+    uint32_t width = 2u * zv->half + 1u;
+    if (zv->half == 0u || (!zv->has_window && count < width)) {
+        return;
+    }
+    if (!zv->has_window) {
+        measure_first(zv);
+    }
+    for (uint32_t i = 0u; i < at_most && zv->measured + zv->half != zv->ring.end; i++) {
+        measure_next(zv);
+    }
+}
+
+/* ---- the judgement ---------------------------------------------------------------------- */
+
+static void remember_past(insole_zero_velocity_t *zv, uint32_t t_us, insole_real_t statistic)
+{
+    uint32_t block_us = zv->reach_us / (INSOLE_STANCE_PAST - 1u);
+    for (uint32_t i = 0u; i < INSOLE_STANCE_PAST && t_us - zv->past_began_us >= block_us; i++) {
+        zv->past_began_us += block_us;
+        zv->past_at = (zv->past_at + 1u) % INSOLE_STANCE_PAST;
+        zv->past[zv->past_at] = INSOLE_REAL_MAX;
+    }
+    if (t_us - zv->past_began_us >= block_us) {
+        zv->past_began_us = t_us; /* after a gap */
+    }
+    zv->past[zv->past_at] = insole_min(zv->past[zv->past_at], statistic);
+}
+
+static bool is_least_of_past(const insole_zero_velocity_t *zv, insole_real_t statistic)
+{
+    insole_real_t least = zv->past[0];
+    for (uint32_t i = 1u; i < INSOLE_STANCE_PAST; i++) {
+        least = insole_min(least, zv->past[i]);
+    }
+    return statistic < least;
+}
+
+static bool is_least_of_future(insole_zero_velocity_t *zv, uint32_t number)
+{
+    const insole_stance_slot_t *k = slot(zv, number);
+    for (uint32_t i = number + 1u; i != zv->measured; i++) {
+        const insole_stance_slot_t *later = slot(zv, i);
+        if (later->t_us - k->t_us > zv->reach_us) {
+            break;
+        }
+        if (later->statistic < k->statistic) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* A minimum that comes early in the gait period and is less still than usual is one of the swing. */
+static bool is_in_swing(const insole_zero_velocity_t *zv, const insole_stance_slot_t *k)
+{
+    const insole_zero_velocity_config_t *c = &zv->config;
+    return zv->has_stance &&
+           seconds(zv->last_stance_us, k->t_us) < c->early_share * zv->period_s &&
+           insole_log(k->statistic) > zv->usual_log + c->early_log;
+}
+
+static bool is_guaranteed(insole_zero_velocity_t *zv, uint32_t number)
+{
+    const insole_stance_slot_t *k = slot(zv, number);
+    bool falling = number == zv->ring.begin || k->statistic <= slot(zv, number - 1u)->statistic;
+    bool rising = number + 1u == zv->measured || k->statistic < slot(zv, number + 1u)->statistic;
+    return falling && rising && k->statistic < zv->config.guaranteed_threshold &&
+           is_least_of_past(zv, k->statistic) && is_least_of_future(zv, number) &&
+           !is_in_swing(zv, k);
+}
+
+/* What is usual for this walker follows the stances that were found. */
+static void note_stance(insole_zero_velocity_t *zv, uint32_t t_us, insole_real_t statistic)
+{
+    insole_real_t interval_s = seconds(zv->last_stance_us, t_us);
+    if (zv->has_stance && interval_s >= SHORTEST_PERIOD_S && interval_s <= LONGEST_PERIOD_S) {
+        zv->period_s += HABIT_WEIGHT * (interval_s - zv->period_s);
+        zv->usual_log += HABIT_WEIGHT * (insole_log(statistic) - zv->usual_log);
+    }
+    zv->last_stance_us = t_us;
+    zv->has_stance = true;
+}
+
+static void note_plain(insole_zero_velocity_t *zv, uint32_t t_us)
+{
+    if (!zv->has_still || seconds(zv->last_still_us, t_us) > SHORTEST_PERIOD_S) {
+        note_stance(zv, t_us, zv->config.plain_threshold);
+    }
+    zv->last_still_us = t_us;
+    zv->has_still = true;
+}
+
+/* The minimum and its neighbours, as far as they are nearly as still. */
+static void spread(insole_zero_velocity_t *zv, uint32_t number)
+{
+    const insole_stance_slot_t *k = slot(zv, number);
+    insole_real_t limit = zv->config.spread_factor * k->statistic;
+    for (uint32_t i = zv->ring.begin; i != zv->measured; i++) {
+        insole_stance_slot_t *s = slot(zv, i);
+        bool after = i - number < INSOLE_STANCE_RING;
+        uint32_t apart_us = after ? s->t_us - k->t_us : k->t_us - s->t_us;
+        if (apart_us <= zv->spread_us && s->statistic < limit) {
+            s->label |= LABEL_STILL;
+        }
+    }
+    zv->last_still_us = k->t_us;
+    zv->has_still = true;
+}
+
+static void judge_adaptive(insole_zero_velocity_t *zv, uint32_t number)
+{
+    insole_stance_slot_t *k = slot(zv, number);
+    if (k->statistic < zv->config.plain_threshold) {
+        k->label |= LABEL_STILL | LABEL_PLAIN;
+        note_plain(zv, k->t_us);
+    } else if (is_guaranteed(zv, number)) {
+        note_stance(zv, k->t_us, k->statistic);
+        spread(zv, number);
+    }
+    remember_past(zv, k->t_us, k->statistic);
+}
+
+/* Step two of [TwoOrder] 4.3: a moving sample whose stored neighbours on both sides are still. */
+static void judge_two_step(insole_zero_velocity_t *zv, uint32_t number)
+{
+    insole_stance_slot_t *k = slot(zv, number);
+    if (two_step_statistic(&zv->config, k) < ONE) {
+        k->label |= LABEL_STILL | LABEL_PLAIN;
+        note_plain(zv, k->t_us);
+        return;
+    }
+    for (uint32_t i = number + 1u; zv->has_still && i != zv->measured; i++) {
+        const insole_stance_slot_t *later = slot(zv, i);
+        if (later->t_us - zv->last_still_us > zv->hole_us) {
+            return;
+        }
+        if (two_step_statistic(&zv->config, later) < ONE) {
+            k->label |= LABEL_STILL;
+            return;
+        }
+    }
+}
+
+static insole_real_t threshold(const insole_zero_velocity_config_t *c)
+{
+    switch ((insole_detector_t)c->detector) {
+    case INSOLE_DETECT_MV:
+        return c->mv_threshold;
+    case INSOLE_DETECT_MAG:
+        return c->mag_threshold;
+    case INSOLE_DETECT_ARE:
+        return c->are_threshold;
+    default:
+        return c->shoe_threshold;
+    }
+}
+
+static void judge(insole_zero_velocity_t *zv, uint32_t number)
+{
+    if (zv->config.detector == INSOLE_DETECT_ADAPTIVE) {
+        judge_adaptive(zv, number);
+    } else if (zv->config.detector == INSOLE_DETECT_TWO_STEP) {
+        judge_two_step(zv, number);
+    } else if (slot(zv, number)->statistic < threshold(&zv->config)) {
+        slot(zv, number)->label |= LABEL_STILL | LABEL_PLAIN;
+        note_plain(zv, slot(zv, number)->t_us);
+    }
+}
+
+/* Time after a sample that its judgement looks at. */
+static uint32_t judge_ahead_us(const insole_zero_velocity_t *zv)
+{
+    return zv->config.detector == INSOLE_DETECT_ADAPTIVE   ? zv->reach_us
+           : zv->config.detector == INSOLE_DETECT_TWO_STEP ? zv->hole_us
+                                                           : 0u;
+}
+
+/* The slots before `end` reach `ahead_us` beyond sample `number`. */
+static bool is_seen(insole_zero_velocity_t *zv, uint32_t number, uint32_t ahead_us, uint32_t end)
+{
+    if (number == end) {
+        return false;
+    }
+    return zv->finished || slot(zv, end - 1u)->t_us - slot(zv, number)->t_us >= ahead_us;
+}
+
+static void judge_seen(insole_zero_velocity_t *zv)
+{
+    while (is_seen(zv, zv->judged, judge_ahead_us(zv), zv->measured)) {
+        judge(zv, zv->judged++);
+    }
+}
+
+insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const insole_imu_t *imu,
+                                          uint8_t tag)
+{
+    if (!zv || !imu) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_status_t status = INSOLE_OK;
+    if (zv->finished) {
+        status = INSOLE_ERR_STATE;
+    } else if (!insole_vec3_is_finite(imu->accel_mps2) || !insole_vec3_is_finite(imu->gyro_radps)) {
+        status = INSOLE_ERR_VALUE;
+    } else if (zv->ring.end != 0u && imu->t_us <= zv->newest_us) {
+        status = INSOLE_ERR_TIME;
+    } else if (insole_ring_is_full(&zv->ring)) {
+        status = INSOLE_ERR_ROOM;
+    }
+    if (status != INSOLE_OK) {
+        zv->refused++;
+        return status;
+    }
+    insole_stance_slot_t s = {imu->accel_mps2, imu->gyro_radps, ZERO, (uint32_t)imu->t_us, tag, 0u};
+    zv->slots[insole_ring_push(&zv->ring)] = s;
+    zv->newest_us = imu->t_us;
+    measure(zv, CATCH_UP);
+    judge_seen(zv);
+    return INSOLE_OK;
+}
+
+/* The samples after the last full window share its statistic. */
+static void measure_rest(insole_zero_velocity_t *zv)
+{
+    measure(zv, INSOLE_STANCE_RING);
+    bool any = zv->has_window;
+    insole_real_t T = any ? slot(zv, zv->measured - 1u)->statistic : INSOLE_REAL_MAX;
+    while (zv->measured != zv->ring.end) {
+        slot(zv, zv->measured++)->statistic = T;
+    }
+}
+
+insole_status_t insole_zero_velocity_finish(insole_zero_velocity_t *zv)
+{
+    if (!zv) {
+        return INSOLE_ERR_NULL;
+    }
+    zv->finished = true;
+    measure_rest(zv);
+    judge_seen(zv);
+    return INSOLE_OK;
+}
+
+/* A released slot may still be wanted by the window that follows it. */
+static bool is_released(insole_zero_velocity_t *zv, uint32_t number)
+{
+    bool needed = zv->measured - number <= zv->half + 1u;
+    uint32_t spread_us = zv->config.detector == INSOLE_DETECT_ADAPTIVE ? zv->spread_us : 0u;
+    return is_seen(zv, number, spread_us, zv->judged) && (zv->finished || !needed);
+}
+
+insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out)
+{
+    if (!zv || !out) {
+        return INSOLE_ERR_NULL;
+    }
+    uint32_t number = zv->ring.begin;
+    if (insole_ring_count(&zv->ring) == 0u || !is_released(zv, number)) {
+        return INSOLE_ERR_STATE;
+    }
+    const insole_stance_slot_t *s = slot(zv, number);
+    out->imu.t_us = zv->newest_us - (uint32_t)((uint32_t)zv->newest_us - s->t_us);
+    out->imu.accel_mps2 = s->accel_mps2;
+    out->imu.gyro_radps = s->gyro_radps;
+    out->statistic = s->statistic;
+    out->tag = s->tag;
+    out->still = (s->label & LABEL_STILL) != 0u;
+    out->plain = (s->label & LABEL_PLAIN) != 0u;
+    insole_ring_pop(&zv->ring);
+    return INSOLE_OK;
+}
