@@ -8,7 +8,7 @@
 #define INSOLE_VERSION_MAJOR 0
 #define INSOLE_VERSION_MINOR 1
 #define INSOLE_VERSION_PATCH 0
-#define INSOLE_VERSION "0.1.0"
+#define INSOLE_VERSION       "0.1.0"
 
 #include "insole/base/config.h"
 #include "insole/base/fastmath.h"

@@ -8,7 +8,8 @@
 #define CPACR        (*(volatile uint32_t *)0xE000ED88u)
 #define CPACR_FPU_ON (0xFu << 20)
 
-extern char data_begin[], data_end[], bss_begin[], bss_end[];
+/* By the linker script; the address of a symbol ..._bytes is the size itself. */
+extern char data_begin[], data_bytes[], bss_begin[], bss_bytes[];
 extern const char data_image[];
 int main(void);
 void reset(void);
@@ -17,8 +18,8 @@ void reset(void)
 {
     CPACR |= CPACR_FPU_ON;
     __asm volatile("dsb\n\tisb" ::: "memory");
-    memcpy(data_begin, data_image, (size_t)(data_end - data_begin));
-    memset(bss_begin, 0, (size_t)(bss_end - bss_begin));
+    memcpy(data_begin, data_image, (size_t)data_bytes);
+    memset(bss_begin, 0, (size_t)bss_bytes);
     semihost_exit(main());
 }
 
