@@ -22,5 +22,11 @@
 #include "insole/base/ticks.h"
 #include "insole/base/types.h"
 #include "insole/base/vec3.h"
+#include "insole/move/stride.h"
+#include "insole/move/zupt_ekf.h"
+#include "insole/sense/screen.h"
+#include "insole/sense/still_bias.h"
+#include "insole/sense/zero_velocity.h"
+#include "insole/track/foot_tracker.h"
 
 #endif

@@ -66,16 +66,16 @@ def version_problems(root):
     """The project's number stands in CMakeLists.txt; others must follow it."""
     number = re.search(r"project\(insole VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text())
     version = number.group(1)
-    major, minor, patch = version.split(".")
+    escaped = re.escape(version)
+    parts = zip(("MAJOR", "MINOR", "PATCH"), version.split("."))
     wanted = {
-        "include/insole/insole.h": [f'INSOLE_VERSION "{version}"', f"INSOLE_VERSION_MAJOR {major}\n",
-                                    f"INSOLE_VERSION_MINOR {minor}\n",
-                                    f"INSOLE_VERSION_PATCH {patch}\n"],
-        "CITATION.cff": [f"\nversion: {version}\n"],
-        "CHANGELOG.md": [f"\n## [{version}]"],
+        "include/insole/insole.h": [rf'INSOLE_VERSION\s+"{escaped}"$']
+        + [rf"INSOLE_VERSION_{name}\s+{number}$" for name, number in parts],
+        "CITATION.cff": [f"^version: {escaped}$"],
+        "CHANGELOG.md": [rf"^## \[{escaped}\]"],
     }
-    return [f"{name}: does not say {text.strip()!r}" for name, texts in wanted.items()
-            for text in texts if text not in (root / name).read_text()]
+    return [f"{name}: does not say {pattern}" for name, patterns in wanted.items()
+            for pattern in patterns if not re.search(pattern, (root / name).read_text(), re.M)]
 
 
 def script_lines(text):
