@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: MIT
+"""The comparison of counts must see what is off, and nothing else."""
+import unittest
+
+import bench
+
+REPORT = "compiler,12.2.0\ninsole_sin,256,40,55,abc123\n"
+CALLGRIND = """fn=run_case
+10 5
+cfn=call_insole_sin
+calls=200 0
+42 8000
+cfn=other
+calls=1 0
+43 7
+fn=main
+cfn=call_init
+calls=1 0
+49 500
+cfn=call_insole_sin
+calls=56 0
+50 2240
+fn=call_insole_sin
+1 256
+"""
+
+
+class Reading(unittest.TestCase):
+    def test_report(self):
+        self.assertEqual(bench.read_report(REPORT),
+                         ("12.2.0", {"insole_sin": (40, 55, "abc123")}))
+
+    def test_what_is_no_report_is_refused(self):
+        for text in ("", "fault\n"):
+            with self.assertRaises(ValueError):
+                bench.read_report(text)
+
+    def test_callgrind_costs_add_up_over_callers(self):
+        self.assertEqual(bench.read_callgrind(CALLGRIND), {"insole_sin": 40})
+
+    def test_expectations_survive_writing_and_reading(self):
+        compilers = {"host": "12.2.0", "m4": "12.2.1 20221205"}
+        cases = {"a": {"host": 1, "m4": 2, "m4_max": 3}}
+        text = bench.write_expected(compilers, cases)
+        self.assertEqual(bench.read_expected(text), (compilers, cases))
+
+
+class Comparing(unittest.TestCase):
+    expected = {"f": {"host": 1000, "m4": 2000, "m4_max": 3000}}
+
+    def problems(self, measured):
+        return bench.compare(measured, self.expected)[0]
+
+    def test_within_three_percent_passes(self):
+        self.assertEqual(self.problems({"f": {"host": 1030}}), [])
+        self.assertEqual(self.problems({"f": {"m4": 1940, "m4_max": 3090}}), [])
+
+    def test_more_and_less_are_found(self):
+        for count in (1031, 969):
+            self.assertEqual(len(self.problems({"f": {"host": count}})), 1)
+
+    def test_the_largest_count_is_held_too(self):
+        self.assertEqual(len(self.problems({"f": {"m4": 2000, "m4_max": 3091}})), 1)
+
+    def test_cases_come_and_go_only_with_their_expectation(self):
+        self.assertEqual(len(self.problems({"f": {"host": 1000}, "g": {"host": 1}})), 1)
+        self.assertEqual(len(self.problems({})), 1)
+
+    def test_other_bits_are_found(self):
+        self.assertEqual(bench.differing({"f": "1"}, {"f": "1"}), [])
+        self.assertEqual(len(bench.differing({"f": "1"}, {"f": "2"})), 1)
+        self.assertEqual(len(bench.differing({"f": "1"}, {})), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
