@@ -54,7 +54,8 @@ static void learn_k(insole_stride_counter_t *c, insole_real_t length_m, insole_r
         return;
     }
     c->learned++;
-    insole_real_t weight = insole_max(c->config.learn_weight, INSOLE_R(1.0) / (insole_real_t)c->learned);
+    insole_real_t weight =
+        insole_max(c->config.learn_weight, INSOLE_R(1.0) / (insole_real_t)c->learned);
     c->k += weight * (length_m / root - c->k);
 }
 
@@ -134,7 +135,7 @@ insole_status_t insole_stride_push(insole_stride_counter_t *counter,
         counter->refused++;
         return INSOLE_ERR_VALUE;
     }
-    bool ended = input->still ? push_still(counter, input, stride)
-                              : push_moving(counter, input, stride);
+    bool ended =
+        input->still ? push_still(counter, input, stride) : push_moving(counter, input, stride);
     return ended ? INSOLE_OK : INSOLE_ERR_STATE;
 }

@@ -93,9 +93,8 @@ static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
     }
     rest->gravity_rests++;
     insole_real_t weight = INSOLE_R(1.0) / (insole_real_t)rest->gravity_rests;
-    rest->gravity_mps2 = rest->gravity_rests == 1u
-                             ? g
-                             : rest->gravity_mps2 + weight * (g - rest->gravity_mps2);
+    rest->gravity_mps2 =
+        rest->gravity_rests == 1u ? g : rest->gravity_mps2 + weight * (g - rest->gravity_mps2);
 }
 
 /* A full block against the one before. */
@@ -104,7 +103,8 @@ static void block_end(insole_still_bias_t *rest)
     const insole_still_bias_config_t *c = &rest->config;
     insole_still_block_t *b = &rest->block;
     insole_real_t per_n = INSOLE_R(1.0) / (insole_real_t)b->count;
-    insole_vec3_t accel = insole_vec3_scale(b->accel, per_n), gyro = insole_vec3_scale(b->gyro, per_n);
+    insole_vec3_t accel = insole_vec3_scale(b->accel, per_n),
+                  gyro = insole_vec3_scale(b->gyro, per_n);
     insole_vec3_t var_accel = insole_vec3_sub(insole_vec3_scale(b->accel2, per_n), squares(accel));
     insole_vec3_t var_gyro = insole_vec3_sub(insole_vec3_scale(b->gyro2, per_n), squares(gyro));
     accel = insole_vec3_add(accel, b->accel0_mps2);
@@ -147,7 +147,8 @@ insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_i
     }
     rest->last_us = imu->t_us;
     block_add(&rest->block, imu);
-    insole_real_t length_s = (insole_real_t)(uint32_t)(imu->t_us - rest->block.begin_us) * INSOLE_R(1.0e-6);
+    insole_real_t length_s =
+        (insole_real_t)(uint32_t)(imu->t_us - rest->block.begin_us) * INSOLE_R(1.0e-6);
     if (length_s >= rest->config.block_s && rest->block.count > 2u) {
         block_end(rest);
         block_begin(&rest->block, imu);

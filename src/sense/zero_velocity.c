@@ -4,7 +4,7 @@
 #include "insole/base/fastmath.h"
 
 #define ZERO INSOLE_R(0.0)
-#define ONE INSOLE_R(1.0)
+#define ONE  INSOLE_R(1.0)
 
 enum {
     RATE_SAMPLES = 16, /* samples from which the window's length is found */
@@ -215,12 +215,12 @@ static bool is_least_of_future(insole_zero_velocity_t *zv, uint32_t number)
     return true;
 }
 
-/* A minimum that comes early in the gait period and is less still than usual is one of the swing. */
+/* A minimum that comes early in the gait period and is less still than usual is one of the swing.
+ */
 static bool is_in_swing(const insole_zero_velocity_t *zv, const insole_stance_slot_t *k)
 {
     const insole_zero_velocity_config_t *c = &zv->config;
-    return zv->has_stance &&
-           seconds(zv->last_stance_us, k->t_us) < c->early_share * zv->period_s &&
+    return zv->has_stance && seconds(zv->last_stance_us, k->t_us) < c->early_share * zv->period_s &&
            insole_log(k->statistic) > zv->usual_log + c->early_log;
 }
 

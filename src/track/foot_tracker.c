@@ -63,11 +63,11 @@ insole_status_t insole_foot_tracker_start(insole_foot_tracker_t *tracker,
     if (!tracker || !start) {
         return INSOLE_ERR_NULL;
     }
-    bool fine = insole_is_finite(start->x_m) && insole_is_finite(start->y_m) &&
-                insole_is_finite(start->sigma_m) && start->sigma_m >= ZERO &&
-                (!start->has_heading ||
-                 (insole_is_finite(start->heading_rad) && insole_is_finite(start->sigma_rad) &&
-                  start->sigma_rad >= ZERO));
+    bool fine =
+        insole_is_finite(start->x_m) && insole_is_finite(start->y_m) &&
+        insole_is_finite(start->sigma_m) && start->sigma_m >= ZERO &&
+        (!start->has_heading || (insole_is_finite(start->heading_rad) &&
+                                 insole_is_finite(start->sigma_rad) && start->sigma_rad >= ZERO));
     if (!fine) {
         tracker->counts.refused++;
         return INSOLE_ERR_VALUE;
@@ -156,8 +156,7 @@ static bool align(insole_foot_tracker_t *t, const insole_labelled_t *s, insole_r
 static void align_first(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
     bool rest = s->plain && s->imu.t_us - t->still_since_us > 0u && t->still_bias.rests > 0u;
-    insole_real_t tilt =
-        rest ? t->config.zupt_ekf.sigma_tilt_rad : t->config.sigma_moving_tilt_rad;
+    insole_real_t tilt = rest ? t->config.zupt_ekf.sigma_tilt_rad : t->config.sigma_moving_tilt_rad;
     if (align(t, s, ZERO, tilt)) {
         t->counts.aligned_moving = !rest;
         t->aligned_us = s->imu.t_us;
@@ -312,7 +311,8 @@ static void make_fix(const insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t
     insole_sym3_t P = t->config.method == INSOLE_FOOT_PDR
                           ? insole_sym3_add_diagonal(t->zupt_ekf.P.pp, t->pdr_var_m2)
                           : t->zupt_ekf.P.pp;
-    insole_real_t drift = (insole_real_t)(t_us - a->t_us) * INSOLE_R(1.0e-6) * t->config.yaw_drift_radps;
+    insole_real_t drift =
+        (insole_real_t)(t_us - a->t_us) * INSOLE_R(1.0e-6) * t->config.yaw_drift_radps;
     insole_real_t var_yaw = a->var_rad2 + insole_square(t->zupt_ekf.aligned ? drift : ZERO);
     rotate_covariance(fix, c, s, P);
     fix->t_us = t_us;

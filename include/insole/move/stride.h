@@ -45,24 +45,24 @@ extern const insole_stride_config_t insole_stride_defaults;
 /** What the counter looks at. */
 typedef struct {
     uint64_t t_us;
-    insole_vec3_t position_m;             /**< n */
-    insole_real_t yaw_rad;                /**< of the foot */
-    insole_real_t vertical_force_mps2;    /**< specific force along n-frame z */
+    insole_vec3_t position_m;          /**< n */
+    insole_real_t yaw_rad;             /**< of the foot */
+    insole_real_t vertical_force_mps2; /**< specific force along n-frame z */
     bool still;
 } insole_stride_input_t;
 
 typedef struct {
     insole_stride_config_t config;
     bool has_origin, was_still, settled;
-    insole_vec3_t origin_m;        /**< where the stride in progress began */
+    insole_vec3_t origin_m; /**< where the stride in progress began */
     insole_real_t origin_yaw_rad;
-    uint64_t left_us;              /**< last still sample of the stance it began with */
-    uint64_t arrived_us;           /**< first still sample of the present stance */
-    insole_stride_input_t last;    /**< newest still sample */
+    uint64_t left_us;           /**< last still sample of the stance it began with */
+    uint64_t arrived_us;        /**< first still sample of the present stance */
+    insole_stride_input_t last; /**< newest still sample */
     insole_real_t force_min_mps2, force_max_mps2;
-    insole_real_t k;               /**< K of (33) in use */
-    uint32_t learned;              /**< strides that K was learned from */
-    uint32_t count;                /**< strides so far */
+    insole_real_t k;  /**< K of (33) in use */
+    uint32_t learned; /**< strides that K was learned from */
+    uint32_t count;   /**< strides so far */
     uint32_t refused;
 } insole_stride_counter_t;
 
@@ -71,7 +71,8 @@ insole_status_t insole_stride_init(insole_stride_counter_t *counter,
                                    const insole_stride_config_t *config);
 
 /** @param[out] stride  written only when a stride has ended
- *  @return INSOLE_OK: a stride has ended; INSOLE_ERR_STATE: not yet; INSOLE_ERR_VALUE: not finite */
+ *  @return INSOLE_OK: a stride has ended; INSOLE_ERR_STATE: not yet; INSOLE_ERR_VALUE: not finite
+ */
 insole_status_t insole_stride_push(insole_stride_counter_t *counter,
                                    const insole_stride_input_t *input, insole_stride_t *stride);
 

@@ -63,15 +63,15 @@ typedef struct {
 typedef struct {
     insole_still_bias_config_t config;
     insole_vec3_t gyro_bias_radps;
-    insole_vec3_t variance_radps2;  /**< of the bias, per axis */
+    insole_vec3_t variance_radps2; /**< of the bias, per axis */
     insole_real_t gravity_mps2;
     uint64_t first_us, last_us;
-    insole_still_block_t block;     /**< being filled */
+    insole_still_block_t block;                     /**< being filled */
     insole_vec3_t mean_accel_mps2, mean_gyro_radps; /**< of the block before */
     insole_vec3_t var_accel, var_gyro;              /**< of the block before */
-    uint32_t blocks;                /**< blocks in a row without a gap, 2 at most */
-    uint32_t rests;                 /**< times the bias was learned */
-    uint32_t gravity_rests;         /**< of these, used for gravity */
+    uint32_t blocks;                                /**< blocks in a row without a gap, 2 at most */
+    uint32_t rests;                                 /**< times the bias was learned */
+    uint32_t gravity_rests;                         /**< of these, used for gravity */
     bool has_first;
     uint32_t refused;
 } insole_still_bias_t;

@@ -1,4 +1,5 @@
-/** @file zero_velocity.h  Is the foot still? A delay line: samples go in, labelled samples come out.
+/** @file zero_velocity.h  Is the foot still? A delay line: samples go in, labelled samples come
+ * out.
  *
  *  Source  [TwoOrder] 2.2 and 4.3 for the two-step logic; the likelihood ratio of a resting sensor
  *          (SHOE), its parts MV, MAG and ARE; an adaptive detector of our own.
@@ -37,9 +38,9 @@ extern "C" {
 #endif
 
 enum {
-    INSOLE_STANCE_RING = 128,  /**< samples in the delay line: half a second at 250 Hz */
-    INSOLE_STANCE_PAST = 8,    /**< blocks in which the past minimum of the statistic is kept */
-    INSOLE_STANCE_WINDOW = 15  /**< longest window of the statistic [samples] */
+    INSOLE_STANCE_RING = 128, /**< samples in the delay line: half a second at 250 Hz */
+    INSOLE_STANCE_PAST = 8,   /**< blocks in which the past minimum of the statistic is kept */
+    INSOLE_STANCE_WINDOW = 15 /**< longest window of the statistic [samples] */
 };
 
 typedef enum {
@@ -97,7 +98,7 @@ typedef struct {
     insole_real_t statistic; /**< of the window around it */
     uint8_t tag;             /**< what the caller pushed with it */
     bool still;
-    bool plain;              /**< still by threshold, not by guarantee */
+    bool plain; /**< still by threshold, not by guarantee */
 } insole_labelled_t;
 
 /** One slot of the delay line. */
@@ -122,20 +123,20 @@ typedef struct {
     insole_stance_slot_t slots[INSOLE_STANCE_RING];
     uint64_t newest_us;
     uint32_t reach_us, spread_us, hole_us; /**< settings in microseconds */
-    uint32_t half;        /**< half window [samples]; 0 until the rate is known */
-    uint32_t measured;    /**< running number of the next slot whose statistic is to be formed */
-    uint32_t judged;      /**< running number of the next slot to be judged */
+    uint32_t half;                         /**< half window [samples]; 0 until the rate is known */
+    uint32_t measured; /**< running number of the next slot whose statistic is to be formed */
+    uint32_t judged;   /**< running number of the next slot to be judged */
     insole_stance_sums_t sums, fresh;
     uint32_t fresh_count;
     bool has_window;
     insole_real_t past[INSOLE_STANCE_PAST]; /**< minima of the statistic in blocks of the past */
-    uint32_t past_at;         /**< index of the block being filled */
-    uint32_t past_began_us;   /**< low half of the time at which it began */
-    uint32_t last_still_us;   /**< low half of the stamp of the last still sample */
-    uint32_t last_stance_us;  /**< of the last stance's first sample or minimum */
+    uint32_t past_at;                       /**< index of the block being filled */
+    uint32_t past_began_us;                 /**< low half of the time at which it began */
+    uint32_t last_still_us;                 /**< low half of the stamp of the last still sample */
+    uint32_t last_stance_us;                /**< of the last stance's first sample or minimum */
     bool has_still, has_stance;
-    insole_real_t period_s;   /**< running mean of the gait period */
-    insole_real_t usual_log;  /**< running mean of ln(statistic) of stances */
+    insole_real_t period_s;  /**< running mean of the gait period */
+    insole_real_t usual_log; /**< running mean of ln(statistic) of stances */
     bool finished;
     uint32_t refused;
 } insole_zero_velocity_t;

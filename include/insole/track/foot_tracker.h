@@ -76,10 +76,10 @@ typedef struct {
 /** How n lies in m: position = turn about the anchor in n, then to the anchor in m. */
 typedef struct {
     insole_vec3_t anchor_n_m, anchor_m_m;
-    insole_real_t yaw_rad;            /**< from n to m */
-    insole_real_t var_m2, var_rad2;   /**< of the start */
-    insole_real_t heading_rad;        /**< told by the start record */
-    uint32_t strides_left;            /**< until the told heading is compared */
+    insole_real_t yaw_rad;          /**< from n to m */
+    insole_real_t var_m2, var_rad2; /**< of the start */
+    insole_real_t heading_rad;      /**< told by the start record */
+    uint32_t strides_left;          /**< until the told heading is compared */
     uint64_t t_us;
 } insole_foot_anchor_t;
 
@@ -92,25 +92,25 @@ typedef struct {
     insole_zupt_ekf_t zupt_ekf;
     insole_stride_counter_t strides;
 
-    insole_vec3_t still_accel;      /**< sum over the stance that will give the attitude */
+    insole_vec3_t still_accel; /**< sum over the stance that will give the attitude */
     uint32_t still_count;
     uint64_t still_since_us;
     bool was_still, coasting, finished;
-    insole_real_t stance_yaw_rad;   /**< yaw of the foot in the last stance */
-    insole_real_t floor_m;          /**< height of the floor being walked on */
+    insole_real_t stance_yaw_rad; /**< yaw of the foot in the last stance */
+    insole_real_t floor_m;        /**< height of the floor being walked on */
     bool has_floor;
-    uint64_t last_us;               /**< stamp of the last labelled sample */
+    uint64_t last_us; /**< stamp of the last labelled sample */
     uint64_t aligned_us;
 
-    insole_vec3_t walk_mps;         /**< velocity over the last stride */
-    uint64_t walk_us;               /**< when it ended */
-    insole_vec3_t pdr_m;            /**< n, sum of the model's strides */
-    insole_real_t pdr_var_m2;       /**< of pdr_m, per axis */
-    insole_real_t heading_n_rad;    /**< direction of the last stride */
+    insole_vec3_t walk_mps;      /**< velocity over the last stride */
+    uint64_t walk_us;            /**< when it ended */
+    insole_vec3_t pdr_m;         /**< n, sum of the model's strides */
+    insole_real_t pdr_var_m2;    /**< of pdr_m, per axis */
+    insole_real_t heading_n_rad; /**< direction of the last stride */
     insole_foot_anchor_t anchor;
-    insole_start_t start;           /**< told, not yet reached */
+    insole_start_t start; /**< told, not yet reached */
     bool has_start;
-    insole_stride_t stride;         /**< newest, until taken */
+    insole_stride_t stride; /**< newest, until taken */
     bool has_stride;
 } insole_foot_tracker_t;
 
