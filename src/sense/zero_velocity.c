@@ -105,8 +105,9 @@ static insole_real_t window_statistic(const insole_zero_velocity_config_t *c,
 static void learn_window(insole_zero_velocity_t *zv)
 {
     uint32_t sum_us = 0u, intervals = 0u;
-    for (uint32_t i = zv->ring.begin + 1u; i != zv->ring.end; i++) {
-        uint32_t dt_us = slot(zv, i)->t_us - slot(zv, i - 1u)->t_us;
+    for (uint32_t i = 1u; i < insole_ring_count(&zv->ring); i++) {
+        uint32_t number = zv->ring.begin + i;
+        uint32_t dt_us = slot(zv, number)->t_us - slot(zv, number - 1u)->t_us;
         if (dt_us <= LONGEST_INTERVAL_US) {
             sum_us += dt_us;
             intervals++;
@@ -376,7 +377,13 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
         zv->refused++;
         return status;
     }
-    insole_stance_slot_t s = {imu->accel_mps2, imu->gyro_radps, ZERO, (uint32_t)imu->t_us, tag, 0u};
+    insole_stance_slot_t s = {imu->accel_mps2,
+                              imu->gyro_radps,
+                              ZERO,
+                              (uint32_t)imu->t_us,
+                              (uint32_t)(imu->t_us >> 32),
+                              tag,
+                              0u};
     zv->slots[insole_ring_push(&zv->ring)] = s;
     zv->newest_us = imu->t_us;
     measure(zv, CATCH_UP);
@@ -424,7 +431,7 @@ insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_lab
         return INSOLE_ERR_STATE;
     }
     const insole_stance_slot_t *s = slot(zv, number);
-    out->imu.t_us = zv->newest_us - (uint32_t)((uint32_t)zv->newest_us - s->t_us);
+    out->imu.t_us = (uint64_t)s->high_us << 32 | s->t_us;
     out->imu.accel_mps2 = s->accel_mps2;
     out->imu.gyro_radps = s->gyro_radps;
     out->statistic = s->statistic;

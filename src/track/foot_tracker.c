@@ -16,6 +16,10 @@ static const uint64_t WALK_MEMORY_US = 1500000u;
 /* Share of its length by which a stride of the model may be wrong. */
 static const insole_real_t MODEL_ERROR_SHARE = INSOLE_R(0.1);
 
+/* A start beyond these tells of an error, not of a place. */
+static const insole_real_t FARTHEST_M = INSOLE_R(1.0e6);
+static const insole_real_t TURNS_RAD = INSOLE_R(100.0);
+
 const insole_foot_tracker_config_t insole_foot_tracker_defaults = {
     INSOLE_FOOT_TRACKER_KEYS(INSOLE_CONFIG_DEFAULT){INSOLE_SCREEN_KEYS(INSOLE_CONFIG_DEFAULT)},
     {INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_DEFAULT)},
@@ -57,18 +61,28 @@ insole_status_t insole_foot_tracker_init(insole_foot_tracker_t *tracker,
     return init_parts(tracker, config);
 }
 
+static bool is_within(insole_real_t x, insole_real_t low, insole_real_t high)
+{
+    return x >= low && x <= high;
+}
+
+static bool is_plausible(const insole_start_t *start)
+{
+    bool place = is_within(start->x_m, -FARTHEST_M, FARTHEST_M) &&
+                 is_within(start->y_m, -FARTHEST_M, FARTHEST_M) &&
+                 is_within(start->sigma_m, ZERO, FARTHEST_M);
+    bool heading = is_within(start->heading_rad, -TURNS_RAD, TURNS_RAD) &&
+                   is_within(start->sigma_rad, ZERO, TURNS_RAD);
+    return place && (heading || !start->has_heading);
+}
+
 insole_status_t insole_foot_tracker_start(insole_foot_tracker_t *tracker,
                                           const insole_start_t *start)
 {
     if (!tracker || !start) {
         return INSOLE_ERR_NULL;
     }
-    bool fine =
-        insole_is_finite(start->x_m) && insole_is_finite(start->y_m) &&
-        insole_is_finite(start->sigma_m) && start->sigma_m >= ZERO &&
-        (!start->has_heading || (insole_is_finite(start->heading_rad) &&
-                                 insole_is_finite(start->sigma_rad) && start->sigma_rad >= ZERO));
-    if (!fine) {
+    if (!is_plausible(start)) {
         tracker->counts.refused++;
         return INSOLE_ERR_VALUE;
     }
@@ -302,6 +316,15 @@ static insole_fix_state_t fix_state(const insole_foot_tracker_t *t, const insole
     return t->coasting ? INSOLE_FIX_COAST : INSOLE_FIX_TRACK;
 }
 
+/* Rounding may leave the variance of what has just been fixed a hair below zero. */
+static void keep_positive(insole_fix_t *fix)
+{
+    fix->var_x_m2 = insole_max(fix->var_x_m2, ZERO);
+    fix->var_y_m2 = insole_max(fix->var_y_m2, ZERO);
+    fix->var_z_m2 = insole_max(fix->var_z_m2, ZERO);
+    fix->var_heading_rad2 = insole_max(fix->var_heading_rad2, ZERO);
+}
+
 static void make_fix(const insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t *fix)
 {
     const insole_foot_anchor_t *a = &t->anchor;
@@ -323,6 +346,7 @@ static void make_fix(const insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t
     fix->cov_xy_m2 -= var_yaw * way.x * way.y;
     fix->var_z_m2 = P.zz;
     fix->var_heading_rad2 = t->zupt_ekf.P.aa.zz + var_yaw;
+    keep_positive(fix);
     fix->state = fix_state(t, fix);
 }
 

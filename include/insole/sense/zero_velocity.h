@@ -105,8 +105,9 @@ typedef struct {
 typedef struct {
     insole_vec3_t accel_mps2, gyro_radps;
     insole_real_t statistic;
-    uint32_t t_us; /**< low half of the stamp */
-    uint8_t tag;   /**< the caller's, and the label */
+    uint32_t t_us;    /**< low half of the stamp */
+    uint32_t high_us; /**< its high half */
+    uint8_t tag;      /**< the caller's, and the label */
     uint8_t label;
 } insole_stance_slot_t;
 

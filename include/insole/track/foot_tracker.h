@@ -119,7 +119,8 @@ insole_status_t insole_foot_tracker_init(insole_foot_tracker_t *tracker,
                                          const insole_foot_tracker_config_t *config);
 
 /** Where the walker is at `start->t_us`; may be told ahead. A later start replaces the earlier.
- *  @return INSOLE_ERR_VALUE for a start that is not finite or has a negative sigma */
+ *  @return INSOLE_ERR_VALUE for a start that is not finite, more than 1e6 m or 100 rad away, or has
+ *          a sigma that is negative or as large */
 insole_status_t insole_foot_tracker_start(insole_foot_tracker_t *tracker,
                                           const insole_start_t *start);
 
