@@ -3,8 +3,9 @@
 
 #define ZERO INSOLE_R(0.0)
 
-/* Enough samples that a block of yaw noise is not below half an ulp of a day's yaw variance. */
-enum { NOISE_BLOCK = 32 };
+/* Long enough that a block of yaw noise is not lost to rounding beside a day's yaw variance, short
+ * enough that noise of a swing still turns into velocity within the swing. */
+enum { NOISE_BLOCK = 8 };
 
 /* Longer intervals are no sampling but a gap. */
 static const uint32_t LONGEST_STEP_US = 1000000u;
@@ -59,8 +60,8 @@ insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf, insole_vec3_t mean
         return INSOLE_ERR_NULL;
     }
     insole_real_t length = insole_vec3_norm(mean_accel_mps2);
-    bool plausible = length > INSOLE_R(0.5) * ekf->gravity_mps2 &&
-                     length < INSOLE_R(2.0) * ekf->gravity_mps2;
+    bool plausible =
+        length > INSOLE_R(0.5) * ekf->gravity_mps2 && length < INSOLE_R(2.0) * ekf->gravity_mps2;
     if (!plausible || !insole_is_finite(yaw_rad) || !insole_is_finite(sigma_tilt_rad) ||
         sigma_tilt_rad < ZERO) {
         return refuse(ekf, INSOLE_ERR_VALUE);
@@ -80,14 +81,23 @@ insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf, insole_vec3_t mean
     return INSOLE_OK;
 }
 
+/* What the sensor felt over the interval. A sample lies between the mean of its interval and the
+ * value at its end, where the mean would be half way to the sample before. */
+static insole_vec3_t over_interval(const insole_zupt_ekf_t *ekf, insole_vec3_t now,
+                                   insole_vec3_t before)
+{
+    insole_vec3_t back = insole_vec3_sub(before, now);
+    return insole_vec3_add_scaled(now, INSOLE_R(0.5) * ekf->config.point_share, back);
+}
+
 /* (12)-(15) with the coning term of two samples: d = w dt + (w_prev x w) dt^2 / 12. */
 static insole_vec3_t turn(insole_zupt_ekf_t *ekf, insole_vec3_t gyro, insole_real_t dt)
 {
     insole_vec3_t coning = insole_vec3_cross(ekf->last_gyro_radps, gyro);
     insole_vec3_t d = insole_vec3_add_scaled(insole_vec3_scale(gyro, dt),
                                              dt * dt * INSOLE_R(0.08333333333), coning);
-    ekf->q = insole_quat_normalize(
-        insole_quat_mul(ekf->q, insole_quat_from_rotvec(d))); /* [TwoOrder (14)] */
+    insole_quat_t dq = insole_quat_from_rotvec(d);               /* [TwoOrder (13)] */
+    ekf->q = insole_quat_normalize(insole_quat_mul(ekf->q, dq)); /* [TwoOrder (14)] */
     ekf->C = insole_quat_to_mat3(ekf->q);
     return d;
 }
@@ -202,8 +212,10 @@ insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu
     }
     insole_real_t dt = (insole_real_t)(uint32_t)(imu->t_us - ekf->t_us) * INSOLE_R(1.0e-6);
     insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, ekf->accel_bias_mps2);
-    insole_vec3_t d = turn(ekf, imu->gyro_radps, dt);
-    insole_vec3_t force = mean_force(ekf, accel, imu->gyro_radps, d, dt);
+    insole_vec3_t gyro = over_interval(ekf, imu->gyro_radps, ekf->last_gyro_radps);
+    insole_vec3_t d = turn(ekf, gyro, dt);
+    insole_vec3_t felt = over_interval(ekf, accel, ekf->last_accel_mps2);
+    insole_vec3_t force = mean_force(ekf, felt, gyro, d, dt);
     ekf->force_mps2 = insole_mat3_mul_vec(ekf->C, force);
     move(ekf, dt);
     insole_vec3_t u = insole_vec3_scale(ekf->force_mps2, dt);

@@ -2,7 +2,7 @@
 #include "insole/sense/screen.h"
 
 #define ZERO INSOLE_R(0.0)
-#define ONE INSOLE_R(1.0)
+#define ONE  INSOLE_R(1.0)
 
 /* Beyond all reason: 200 g, 5,700 deg/s. */
 static const insole_real_t ACCEL_LIMIT_MPS2 = INSOLE_R(2000.0);
@@ -11,10 +11,21 @@ static const insole_real_t GYRO_LIMIT_RADPS = INSOLE_R(100.0);
 /* A neighbour of a spike lies this much nearer to the other neighbour than to the spike. */
 static const insole_real_t SPIKE_SHARE = INSOLE_R(0.25);
 
-/* A swing's own peak is never flat for so long, so high. */
-static const insole_real_t FLAT_SHARE = INSOLE_R(0.03);
-static const insole_real_t FLAT_FROM_RADPS = INSOLE_R(4.0);
-static const uint32_t FLAT_US = 25000u;
+/* The clock behind the stamps: gains of its phase and period per sample, the interval that makes a
+ * burst, and how far a stamp may lie from it before it starts anew. */
+enum { CLOCK_INTERVALS = 20 };
+static const insole_real_t CLOCK_PHASE_GAIN = INSOLE_R(0.05);
+static const insole_real_t CLOCK_PERIOD_GAIN = INSOLE_R(0.0006);
+static const insole_real_t CLOCK_REACH_US = INSOLE_R(30000.0);
+static const insole_real_t BURST_INTERVAL_SHARE = INSOLE_R(0.75);
+static const insole_real_t BURST_WEIGHT = INSOLE_R(0.01);
+
+/* A clipped gyro stays at its top and then falls fast; a swing's own peak is round. */
+static const insole_real_t CLIP_FROM_RADPS = INSOLE_R(7.0);
+static const insole_real_t CLIP_TOP_SHARE = INSOLE_R(0.97);
+static const insole_real_t CLIP_FOOT_SHARE = INSOLE_R(0.8);
+static const insole_real_t CLIP_TOP_US = INSOLE_R(20000.0);
+static const insole_real_t CLIP_TOP_PER_FALL = INSOLE_R(3.0);
 
 const insole_screen_config_t insole_screen_defaults = {INSOLE_SCREEN_KEYS(INSOLE_CONFIG_DEFAULT)};
 
@@ -29,6 +40,7 @@ insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_
     static const insole_screen_t blank;
     *screen = blank;
     screen->config = *config;
+    screen->gyro_range_radps = config->gyro_range_radps;
     return INSOLE_OK;
 }
 
@@ -52,9 +64,12 @@ static bool hold_fields(insole_imu_t *imu, const insole_imu_t *last)
 {
     insole_vec3_t *a = &imu->accel_mps2, *w = &imu->gyro_radps;
     const insole_vec3_t *la = &last->accel_mps2, *lw = &last->gyro_radps;
-    bool x = hold_field(&a->x, la->x, ACCEL_LIMIT_MPS2) | hold_field(&w->x, lw->x, GYRO_LIMIT_RADPS);
-    bool y = hold_field(&a->y, la->y, ACCEL_LIMIT_MPS2) | hold_field(&w->y, lw->y, GYRO_LIMIT_RADPS);
-    bool z = hold_field(&a->z, la->z, ACCEL_LIMIT_MPS2) | hold_field(&w->z, lw->z, GYRO_LIMIT_RADPS);
+    bool x =
+        hold_field(&a->x, la->x, ACCEL_LIMIT_MPS2) | hold_field(&w->x, lw->x, GYRO_LIMIT_RADPS);
+    bool y =
+        hold_field(&a->y, la->y, ACCEL_LIMIT_MPS2) | hold_field(&w->y, lw->y, GYRO_LIMIT_RADPS);
+    bool z =
+        hold_field(&a->z, la->z, ACCEL_LIMIT_MPS2) | hold_field(&w->z, lw->z, GYRO_LIMIT_RADPS);
     return x || y || z;
 }
 
@@ -96,6 +111,59 @@ static bool is_in_time(insole_screen_t *s, uint64_t t_us)
     return false;
 }
 
+/* ---- bursts ----------------------------------------------------------------------------- */
+
+/* A stamp that follows the one before this soon was read late, with its successor. */
+static bool follows_too_soon(const insole_even_clock_t *clock, insole_real_t dt_us)
+{
+    return dt_us < BURST_INTERVAL_SHARE * clock->period_us;
+}
+
+/* The clock ticks on by its period and is drawn towards the stamp that came. */
+static void tick(insole_even_clock_t *clock, insole_real_t dt_us)
+{
+    insole_real_t error_us = dt_us - clock->period_us - clock->lead_us; /* raw less expected */
+    clock->burst_share +=
+        BURST_WEIGHT * ((follows_too_soon(clock, dt_us) ? ONE : ZERO) - clock->burst_share);
+    if (insole_abs(error_us) > CLOCK_REACH_US) {
+        clock->lead_us = ZERO;
+        return;
+    }
+    clock->lead_us = -(ONE - CLOCK_PHASE_GAIN) * error_us;
+    clock->period_us += CLOCK_PERIOD_GAIN * error_us;
+}
+
+static void learn_period(insole_even_clock_t *clock, uint32_t dt_us)
+{
+    clock->span_us += dt_us;
+    if (++clock->intervals == CLOCK_INTERVALS) {
+        clock->period_us = (insole_real_t)clock->span_us / (insole_real_t)CLOCK_INTERVALS;
+    }
+}
+
+/* The stamp to use: the raw one, or that of the sensor's clock while stamps come in bursts. */
+static uint64_t even_stamp(insole_screen_t *s, uint64_t t_us)
+{
+    insole_even_clock_t *clock = &s->clock;
+    uint64_t dt_us = t_us - s->raw_us;
+    s->raw_us = t_us;
+    if (s->held == 0u || seconds(0u, dt_us) > s->config.gap_s) {
+        clock->lead_us = ZERO;
+        return t_us;
+    }
+    if (!(clock->period_us > ZERO)) {
+        learn_period(clock, (uint32_t)dt_us);
+        return t_us;
+    }
+    tick(clock, (insole_real_t)(uint32_t)dt_us);
+    if (clock->burst_share < s->config.burst_share) {
+        return t_us;
+    }
+    s->counts.evened++;
+    int64_t even_us = (int64_t)t_us + (int64_t)clock->lead_us;
+    return even_us > (int64_t)s->last_us ? (uint64_t)even_us : s->last_us + 1u;
+}
+
 /* ---- spikes ----------------------------------------------------------------------------- */
 
 static bool mend_spike(insole_real_t before, insole_real_t *middle, insole_real_t after,
@@ -103,8 +171,8 @@ static bool mend_spike(insole_real_t before, insole_real_t *middle, insole_real_
 {
     insole_real_t rise = *middle - before, fall = *middle - after;
     insole_real_t least = insole_min(insole_abs(rise), insole_abs(fall));
-    bool spike = rise * fall > ZERO && least > limit &&
-                 insole_abs(after - before) < SPIKE_SHARE * least;
+    bool spike =
+        rise * fall > ZERO && least > limit && insole_abs(after - before) < SPIKE_SHARE * least;
     if (spike) {
         *middle = INSOLE_R(0.5) * (before + after);
     }
@@ -136,43 +204,69 @@ static void mend(insole_screen_t *s, const insole_imu_t *after)
 
 /* ---- clipping --------------------------------------------------------------------------- */
 
-/* A gyro at its end stays flat where a foot's swing would go on; the level is remembered. */
-static void watch_clip(insole_clip_t *clip, insole_real_t w, uint32_t dt_us)
+/* Share of the interval from `last` down or up to `size` that lies on the far side of `level`. */
+static insole_real_t share_beyond(insole_real_t level, insole_real_t inside, insole_real_t outside)
 {
-    insole_real_t size = insole_abs(w);
-    bool flat = size > FLAT_FROM_RADPS &&
-                insole_abs(w - clip->top_radps) <= FLAT_SHARE * insole_abs(clip->top_radps);
-    if (!flat) {
-        clip->top_radps = w;
-        clip->run_us = 0u;
-        return;
-    }
-    clip->run_us += dt_us;
-    if (clip->run_us >= FLAT_US) {
-        clip->level_radps = insole_max(clip->level_radps, insole_abs(clip->top_radps));
-    }
+    insole_real_t span = inside - outside;
+    return span > ZERO ? insole_min((inside - level) / span, ONE) : ONE;
 }
 
-static uint8_t clip_mark(insole_screen_t *s, uint32_t axis, insole_real_t w, uint32_t dt_us)
+/* Time spent near the top and on the way down from it, up to the crossing of the foot. */
+static void time_excursion(insole_clip_t *clip, insole_real_t size, insole_real_t dt_us)
+{
+    insole_real_t high = CLIP_TOP_SHARE * clip->top_radps, low = CLIP_FOOT_SHARE * clip->top_radps;
+    if (size >= high) {
+        clip->top_us += dt_us + clip->fall_us;
+        clip->fall_us = ZERO;
+        return;
+    }
+    insole_real_t near =
+        clip->last_radps >= high ? share_beyond(high, clip->last_radps, size) : ZERO;
+    insole_real_t above = size >= low ? ONE : share_beyond(low, clip->last_radps, size);
+    clip->top_us += near * dt_us;
+    clip->fall_us += (above - near) * dt_us;
+}
+
+/* Follows one excursion of one axis; true when it turns out to have been cut off. */
+static bool was_cut_off(insole_clip_t *clip, insole_real_t size, insole_real_t dt_us)
+{
+    bool cut = false;
+    if (size > insole_max(clip->top_radps / CLIP_TOP_SHARE, CLIP_FROM_RADPS)) {
+        clip->top_radps = size;
+        clip->top_us = dt_us * share_beyond(CLIP_TOP_SHARE * size, size, clip->last_radps);
+        clip->fall_us = ZERO;
+    } else if (clip->top_radps > ZERO) {
+        time_excursion(clip, size, dt_us);
+        if (size < CLIP_FOOT_SHARE * clip->top_radps) {
+            cut = clip->top_us >= CLIP_TOP_US && clip->top_us >= CLIP_TOP_PER_FALL * clip->fall_us;
+            clip->top_radps = ZERO;
+        }
+    }
+    clip->last_radps = size;
+    return cut;
+}
+
+static bool is_clipped(insole_screen_t *s, uint32_t axis, insole_real_t w, insole_real_t dt_us)
 {
     insole_clip_t *clip = &s->clip[axis];
-    insole_real_t level = s->config.gyro_range_radps;
-    if (!(level > ZERO)) {
-        watch_clip(clip, w, dt_us);
-        level = clip->level_radps;
+    insole_real_t size = insole_abs(w), top = clip->top_radps;
+    if (was_cut_off(clip, size, dt_us) && !(s->config.gyro_range_radps > ZERO)) {
+        bool first = !(s->gyro_range_radps > ZERO);
+        s->gyro_range_radps = first ? top : insole_min(top, s->gyro_range_radps);
     }
-    bool clipped = level > ZERO && insole_abs(w) >= s->config.clip_share * level;
-    return (uint8_t)(clipped ? 1u << axis : 0u);
+    return s->gyro_range_radps > ZERO && size >= s->config.clip_share * s->gyro_range_radps;
 }
 
 static uint8_t clip_marks(insole_screen_t *s, const insole_imu_t *imu)
 {
-    uint32_t dt_us = s->held > 0u ? (uint32_t)(imu->t_us - s->last_us) : 0u;
+    insole_real_t dt_us = s->held > 0u ? (insole_real_t)(imu->t_us - s->last_us) : ZERO;
     insole_vec3_t w = imu->gyro_radps;
-    unsigned marks = (unsigned)clip_mark(s, 0u, w.x, dt_us) | clip_mark(s, 1u, w.y, dt_us) |
-                     clip_mark(s, 2u, w.z, dt_us);
+    uint8_t marks = 0u;
+    marks |= is_clipped(s, 0u, w.x, dt_us) ? INSOLE_MARK_CLIP_X : 0u;
+    marks |= is_clipped(s, 1u, w.y, dt_us) ? INSOLE_MARK_CLIP_Y : 0u;
+    marks |= is_clipped(s, 2u, w.z, dt_us) ? INSOLE_MARK_CLIP_Z : 0u;
     s->counts.clipped += marks != 0u ? 1u : 0u;
-    return (uint8_t)marks;
+    return marks;
 }
 
 /* ---- averaging -------------------------------------------------------------------------- */
@@ -248,14 +342,15 @@ insole_status_t insole_screen_push(insole_screen_t *screen, const insole_imu_t *
     if (!is_in_time(s, raw->t_us) || !repair_fields(s, &next.imu)) {
         return INSOLE_ERR_STATE;
     }
+    next.imu.t_us = even_stamp(s, raw->t_us);
     next.marks = clip_marks(s, &next.imu);
-    if (s->held > 0u && seconds(s->pending.imu.t_us, raw->t_us) > s->config.gap_s) {
+    if (s->held > 0u && seconds(s->pending.imu.t_us, next.imu.t_us) > s->config.gap_s) {
         next.marks |= INSOLE_MARK_GAP;
     }
     mend(s, &next.imu);
     insole_status_t status = s->held > 0u ? release(s, clean) : INSOLE_ERR_STATE;
     s->pending = next;
-    s->last_us = raw->t_us;
+    s->last_us = next.imu.t_us;
     s->held = s->held > 0u ? 2u : 1u;
     return status;
 }

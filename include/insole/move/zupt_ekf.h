@@ -13,7 +13,7 @@
  *          insole_zupt_ekf_predict(&foot, &imu);
  *          if (still) insole_zupt_ekf_correct(&foot, &nis);
  *
- *  A sample is taken as the mean over the time since the one before. The covariance is kept in
+ *  The covariance is kept in
  *  its 3x3 blocks; Phi = I + three blocks (five with the bias), H = [0 I 0 0].
  *
  *  SPDX-License-Identifier: MIT
@@ -36,7 +36,9 @@ extern "C" {
         "1-sigma of roll and pitch after alignment on a standing foot")                           \
     KEY(REAL, accel_noise_mps_rts, 0.04, 0.0001, 10.0, "m/s/sqrt(s)",                             \
         "velocity random walk: sensor noise and all that a first-order filter leaves out")        \
-    KEY(REAL, gyro_noise_rad_rts, 2.0e-4, 1.0e-6, 1.0, "rad/sqrt(s)",                             \
+    KEY(REAL, point_share, 0.25, 0.0, 1.0, "",                                                    \
+        "what a sample is: 0 = the mean over its interval, 1 = the value at its stamp")           \
+    KEY(REAL, gyro_noise_rad_rts, 5.0e-4, 1.0e-6, 1.0, "rad/sqrt(s)",                             \
         "attitude random walk at rest")                                                           \
     KEY(REAL, gyro_turn_noise_rts, 1.5e-4, 0.0, 0.1, "sqrt(s)",                                   \
         "attitude random walk per turn rate (scale, misalignment); 0 = off")                      \
@@ -76,8 +78,8 @@ typedef struct {
 typedef struct {
     insole_zupt_ekf_config_t config;
     bool aligned;
-    uint64_t t_us;                 /**< of the last sample */
-    insole_real_t dt_s;            /**< of the last interval */
+    uint64_t t_us;      /**< of the last sample */
+    insole_real_t dt_s; /**< of the last interval */
     insole_real_t gravity_mps2;
     insole_vec3_t p_m, v_mps;      /**< n */
     insole_quat_t q;               /**< b to n */
@@ -87,12 +89,13 @@ typedef struct {
     insole_vec3_t last_accel_mps2, last_gyro_radps; /**< b, of the last sample, bias removed */
     insole_zupt_cov_t P;
     insole_zupt_noise_t noise;
-    uint32_t refused;              /**< calls answered with a negative status */
+    uint32_t refused; /**< calls answered with a negative status */
 } insole_zupt_ekf_t;
 
 /** Position zero, not aligned.
  *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
-insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf, const insole_zupt_ekf_config_t *config);
+insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf,
+                                     const insole_zupt_ekf_config_t *config);
 
 /** Roll and pitch from the specific force of a standing foot, [TwoOrder] table 1; yaw becomes
  *  `yaw_rad`, velocity zero, position stays. Covariance: position as before alignment (zero at

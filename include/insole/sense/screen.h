@@ -1,8 +1,9 @@
 /** @file screen.h  Repairs and counts bad samples before anything else sees them.
  *
  *  Handled: stamps that repeat or go back, a single wild stamp, fields that are not a number,
- *  values no foot can produce, single-sample spikes, gyros at the end of their range, gaps, and
- *  rates above `max_rate_hz` (averaged down: a mean keeps what a pick would lose).
+ *  values no foot can produce, single-sample spikes, gyros at the end of their range, gaps, stamps
+ *  that tell when a burst was read and not when it was sampled, and rates above `max_rate_hz`
+ *  (averaged down: a mean keeps what a pick would lose).
  *
  *  Frames  b: sensor, any mounting. One sample is held back, so that a spike shows.
  *
@@ -27,6 +28,8 @@ extern "C" {
 #define INSOLE_SCREEN_KEYS(KEY)                                                                   \
     KEY(REAL, max_rate_hz, 250.0, 40.0, 256.0, "Hz", "faster samples are averaged down to it")    \
     KEY(REAL, gap_s, 0.1, 0.02, 1.0, "s", "a longer interval is a gap")                           \
+    KEY(REAL, burst_share, 0.05, 0.0, 1.0, "",                                                    \
+        "stamps are evened out once this share of them comes in bursts; 1 = never")               \
     KEY(REAL, hold_s, 0.03, 0.0, 1.0, "s",                                                        \
         "a field that is not a number is held this long; then the sample is dropped")             \
     KEY(REAL, spike_accel_mps2, 150.0, 1.0, 1.0e6, "m/s^2",                                       \
@@ -34,8 +37,8 @@ extern "C" {
     KEY(REAL, spike_gyro_radps, 8.0, 0.1, 1.0e6, "rad/s", "the same for the gyro; 1e6 = off")     \
     KEY(REAL, gyro_range_radps, 0.0, 0.0, 100.0, "rad/s",                                         \
         "end of the gyro's range where it is known; 0 = recognised as it clips")                  \
-    KEY(REAL, clip_share, 0.92, 0.5, 1.0, "",                                                     \
-        "share of its range from which a gyro axis counts as clipped")
+    KEY(REAL, clip_share, 0.82, 0.5, 1.0, "",                                                     \
+        "share of its range from which a gyro axis counts as clipped: many bend before they end")
 /* clang-format on */
 
 typedef struct {
@@ -54,6 +57,7 @@ typedef struct {
     uint32_t spikes;     /**< single-sample spikes replaced by the mean of their neighbours */
     uint32_t clipped;    /**< samples with a gyro axis at the end of its range */
     uint32_t gaps;       /**< intervals longer than gap_s */
+    uint32_t evened;     /**< stamps of bursts put where the samples were taken */
     uint32_t averaged;   /**< joined with their neighbours to keep the rate down */
 } insole_screen_counts_t;
 
@@ -72,22 +76,33 @@ typedef struct {
     uint8_t marks;
 } insole_clean_t;
 
-/** Where one gyro axis ends, learned from flat tops. */
+/** The present excursion of one gyro axis: how long near its top, how long on its way down. */
 typedef struct {
-    insole_real_t level_radps; /**< largest flat top seen; 0 before the first */
-    insole_real_t top_radps;   /**< of the run being watched */
-    uint32_t run_us;           /**< how long it has been flat */
+    insole_real_t top_radps;  /**< of the excursion; 0 = there is none */
+    insole_real_t last_radps; /**< size of the sample before */
+    insole_real_t top_us, fall_us;
 } insole_clip_t;
+
+/** The sensor's own clock, followed through the jitter of the stamps. */
+typedef struct {
+    insole_real_t period_us;     /**< 0 until known */
+    insole_real_t lead_us;       /**< of the even stamp over the raw one */
+    insole_real_t burst_share;   /**< running share of stamps that follow too soon */
+    uint32_t intervals, span_us; /**< the first ones, from which the period is found */
+} insole_even_clock_t;
 
 typedef struct {
     insole_screen_config_t config;
     insole_screen_counts_t counts;
+    insole_even_clock_t clock;
+    uint64_t raw_us;                /**< stamp of the last sample as it came */
     insole_clean_t before, pending; /**< `pending` waits for its successor */
     uint32_t held;                  /**< of these two, how many there are */
     bool has_spare;                 /**< `pending` has gone out already */
     uint64_t last_us;               /**< stamp of the last sample taken in */
     uint64_t good_us;               /**< stamp of the last sample without a bad field */
     insole_clip_t clip[3];
+    insole_real_t gyro_range_radps;    /**< told, or the least top that was cut off; 0 = none yet */
     insole_vec3_t sum_accel, sum_gyro; /**< of the samples being averaged, weighted by time */
     insole_real_t sum_s;
     uint8_t sum_marks;
