@@ -74,13 +74,13 @@ typedef enum {
         "adaptive: a minimum before this share of the gait period must be as still as usual")     \
     KEY(REAL, early_log, 0.7, 0.0, 10.0, "",                                                      \
         "adaptive: how far above the usual ln(statistic) such a minimum may lie")                 \
-    KEY(REAL, shoe_threshold, 1.0e5, 1.0, 1.0e9, "", "shoe: still below it")                      \
-    KEY(REAL, mv_threshold, 2.0e4, 1.0, 1.0e9, "", "mv: still below it")                          \
-    KEY(REAL, mag_threshold, 2.0e4, 1.0, 1.0e9, "", "mag: still below it")                        \
-    KEY(REAL, are_threshold, 1.0e5, 1.0, 1.0e9, "", "are: still below it")                        \
-    KEY(REAL, two_step_accel_mps2, 1.0, 0.01, 20.0, "m/s^2",                                      \
+    KEY(REAL, shoe_threshold, 3.0e5, 1.0, 1.0e9, "", "shoe: still below it")                      \
+    KEY(REAL, mv_threshold, 8.0e4, 1.0, 1.0e9, "", "mv: still below it")                          \
+    KEY(REAL, mag_threshold, 4.0e4, 1.0, 1.0e9, "", "mag: still below it")                        \
+    KEY(REAL, are_threshold, 1.6e5, 1.0, 1.0e9, "", "are: still below it")                        \
+    KEY(REAL, two_step_accel_mps2, 2.0, 0.01, 20.0, "m/s^2",                                      \
         "two-step: largest | |a| - g | of a still sample")                                        \
-    KEY(REAL, two_step_gyro_radps, 0.6, 0.01, 20.0, "rad/s",                                      \
+    KEY(REAL, two_step_gyro_radps, 0.8, 0.01, 20.0, "rad/s",                                      \
         "two-step: largest |w| of a still sample")                                                \
     KEY(REAL, two_step_hole_s, 0.05, 0.0, 0.2, "s",                                               \
         "two-step: a shorter run of moving samples between still ones is still")
