@@ -90,13 +90,13 @@ static insole_vec3_t over_interval(const insole_zupt_ekf_t *ekf, insole_vec3_t n
     return insole_vec3_add_scaled(now, INSOLE_R(0.5) * ekf->config.point_share, back);
 }
 
-/* (12)-(15) with the coning term of two samples: d = w dt + (w_prev x w) dt^2 / 12. */
+/* With the coning term of two samples: d = w dt + (w_prev x w) dt^2 / 12. */
 static insole_vec3_t turn(insole_zupt_ekf_t *ekf, insole_vec3_t gyro, insole_real_t dt)
 {
     insole_vec3_t coning = insole_vec3_cross(ekf->last_gyro_radps, gyro);
     insole_vec3_t d = insole_vec3_add_scaled(insole_vec3_scale(gyro, dt),
                                              dt * dt * INSOLE_R(0.08333333333), coning);
-    insole_quat_t dq = insole_quat_from_rotvec(d);               /* [TwoOrder (13)] */
+    insole_quat_t dq = insole_quat_from_rotvec(d);               /* [TwoOrder (12)-(13)] */
     ekf->q = insole_quat_normalize(insole_quat_mul(ekf->q, dq)); /* [TwoOrder (14)] */
     ekf->C = insole_quat_to_mat3(ekf->q);
     return d;
@@ -114,7 +114,7 @@ static insole_vec3_t mean_force(const insole_zupt_ekf_t *ekf, insole_vec3_t acce
     return insole_vec3_add_scaled(s, dt * INSOLE_R(0.08333333333), sculling);
 }
 
-/* Velocity and position. [TwoOrder (16)] [TwoOrder (17)] */
+/* Velocity and position, [TwoOrder (16)-(17)]. */
 static void move(insole_zupt_ekf_t *ekf, insole_real_t dt)
 {
     insole_vec3_t a = ekf->force_mps2;
@@ -124,7 +124,7 @@ static void move(insole_zupt_ekf_t *ekf, insole_real_t dt)
     ekf->v_mps = insole_vec3_add_scaled(ekf->v_mps, dt, a);
 }
 
-/* P = Phi P Phi' (24) for p, v, a; Phi = [I I.dt 0; 0 I -S.dt; 0 0 I] (20)-(21), u = f dt.
+/* P = Phi P Phi' for p, v, a [TwoOrder (20)-(21)]: Phi = [I I.dt 0; 0 I -S.dt; 0 0 I], u = f dt.
  * Each line still needs the old values of the lines below it. */
 static void propagate_nine(insole_zupt_cov_t *P, insole_vec3_t u, insole_real_t dt)
 {
@@ -248,7 +248,7 @@ static void inject(insole_zupt_ekf_t *ekf, const error_t *dx)
     /* (2I + Omega)(2I - Omega)^-1 is the rotation of the quaternion (1, a/2) made unit. */
     insole_vec3_t half = insole_vec3_scale(dx->a, INSOLE_R(0.5));
     insole_quat_t cayley = insole_quat(INSOLE_R(1.0), half.x, half.y, half.z);
-    ekf->q = insole_quat_normalize(insole_quat_mul(cayley, ekf->q)); /* [TwoOrder (31)] */
+    ekf->q = insole_quat_normalize(insole_quat_mul(cayley, ekf->q)); /* [TwoOrder (30)-(31)] */
     ekf->C = insole_quat_to_mat3(ekf->q);
 }
 
@@ -296,12 +296,12 @@ insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *n
         return refuse(ekf, INSOLE_ERR_STATE);
     }
     insole_real_t r = insole_square(ekf->config.sigma_zupt_mps) * ZUPT_INTERVAL_S / ekf->dt_s;
-    insole_sym3_t S = insole_sym3_add_diagonal(ekf->P.vv, r);
-    insole_sym3_t W; /* S^-1 */
+    insole_sym3_t S = insole_sym3_add_diagonal(ekf->P.vv, r); /* H P H' + R, [TwoOrder (23)] */
+    insole_sym3_t W;                                          /* S^-1 */
     if (!insole_sym3_inverse(S, &W)) {
         return refuse(ekf, INSOLE_ERR_STATE);
     }
-    /* z = -H x (22), (27): what the rolling foot does less what the state says. */
+    /* z = -H x [TwoOrder (27)]: what the rolling foot does less what the state says. */
     insole_vec3_t z = insole_vec3_sub(rolling_velocity(ekf), ekf->v_mps);
     insole_vec3_t w = insole_sym3_mul_vec(W, z); /* S^-1 z */
     error_t dx = {insole_mat3_mul_vec(ekf->P.pv, w), insole_sym3_mul_vec(ekf->P.vv, w),
