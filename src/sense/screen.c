@@ -51,26 +51,25 @@ static insole_real_t seconds(uint64_t from_us, uint64_t to_us)
 
 /* ---- fields ----------------------------------------------------------------------------- */
 
-static bool hold_field(insole_real_t *value, insole_real_t last, insole_real_t limit)
+/* @return how many fields were held: 0 or 1 */
+static uint32_t hold_field(insole_real_t *value, insole_real_t last, insole_real_t limit)
 {
     if (insole_abs(*value) <= limit) {
-        return false;
+        return 0u;
     }
     *value = last;
-    return true;
+    return 1u;
 }
 
 static bool hold_fields(insole_imu_t *imu, const insole_imu_t *last)
 {
     insole_vec3_t *a = &imu->accel_mps2, *w = &imu->gyro_radps;
     const insole_vec3_t *la = &last->accel_mps2, *lw = &last->gyro_radps;
-    bool x =
-        hold_field(&a->x, la->x, ACCEL_LIMIT_MPS2) | hold_field(&w->x, lw->x, GYRO_LIMIT_RADPS);
-    bool y =
-        hold_field(&a->y, la->y, ACCEL_LIMIT_MPS2) | hold_field(&w->y, lw->y, GYRO_LIMIT_RADPS);
-    bool z =
-        hold_field(&a->z, la->z, ACCEL_LIMIT_MPS2) | hold_field(&w->z, lw->z, GYRO_LIMIT_RADPS);
-    return x || y || z;
+    uint32_t held = 0u;
+    held += hold_field(&a->x, la->x, ACCEL_LIMIT_MPS2) + hold_field(&w->x, lw->x, GYRO_LIMIT_RADPS);
+    held += hold_field(&a->y, la->y, ACCEL_LIMIT_MPS2) + hold_field(&w->y, lw->y, GYRO_LIMIT_RADPS);
+    held += hold_field(&a->z, la->z, ACCEL_LIMIT_MPS2) + hold_field(&w->z, lw->z, GYRO_LIMIT_RADPS);
+    return held > 0u;
 }
 
 /* Bad fields are held for a while; false: the sample is of no use. */
@@ -160,7 +159,7 @@ static uint64_t even_stamp(insole_screen_t *s, uint64_t t_us)
         return t_us;
     }
     s->counts.evened++;
-    int64_t even_us = (int64_t)t_us + (int64_t)clock->lead_us;
+    int64_t even_us = (int64_t)t_us + (int32_t)clock->lead_us; /* at most CLOCK_REACH_US */
     return even_us > (int64_t)s->last_us ? (uint64_t)even_us : s->last_us + 1u;
 }
 

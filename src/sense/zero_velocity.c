@@ -9,6 +9,7 @@
 enum {
     RATE_SAMPLES = 16, /* samples from which the window's length is found */
     CATCH_UP = 2,      /* windows formed per push at most */
+    LONGEST_HALF = INSOLE_STANCE_WINDOW / 2,
     LABEL_STILL = 1,
     LABEL_PLAIN = 2
 };
@@ -118,7 +119,7 @@ static void learn_window(insole_zero_velocity_t *zv)
         insole_real_t dt_s = (insole_real_t)sum_us * INSOLE_R(1.0e-6) / (insole_real_t)intervals;
         half = INSOLE_R(0.5) * zv->config.window_s / dt_s;
     }
-    half = insole_min(insole_max(half, ONE), (insole_real_t)(INSOLE_STANCE_WINDOW / 2));
+    half = insole_min(insole_max(half, ONE), (insole_real_t)LONGEST_HALF);
     zv->half = (uint32_t)(half + INSOLE_R(0.001));
 }
 

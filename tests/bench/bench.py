@@ -4,7 +4,8 @@
 usage: bench.py host BENCH              counted by callgrind
        bench.py m4 QEMU... IMAGE        counted by the emulated board
        bench.py same_bits BENCH QEMU... IMAGE
-       bench.py renew BENCH QEMU... IMAGE    writes expected.csv
+       bench.py renew BENCH QEMU... IMAGE    writes expected.csv; in a build tree this is
+                                             `cmake --build build --target bench_expected`
 
 Exit 77: what it takes is not installed, or another compiler made the code.
 """
@@ -133,6 +134,9 @@ def renew(bench, emulated):
 
 
 def run(action, *arguments):
+    if action in ("-h", "--help"):
+        print(__doc__.strip())
+        sys.exit(0)
     if action == "host":
         return check_counts("host", *measure_host(arguments[0]))
     if action == "m4":
@@ -143,7 +147,7 @@ def run(action, *arguments):
 
 if __name__ == "__main__":
     try:
-        found = run(*sys.argv[1:])
+        found = run(*(sys.argv[1:] or ["--help"]))
     except Skip as why:
         print(f"SKIPPED: {why}")
         sys.exit(SKIPPED)

@@ -21,7 +21,8 @@ def state_types(root):
     found = {}
     for path in common.files(root, ["include/insole"], {".h"}):
         name = f"insole_{path.stem}_t"
-        if re.search(r"\}\s*%s;" % name, common.code_only(path.read_text())):
+        struct = r"typedef\s+struct\s*\{(?:[^{}]|\{[^{}]*\})*\}\s*%s;" % name
+        if re.search(struct, common.code_only(path.read_text())):
             found[path.stem] = name
     return found
 

@@ -367,6 +367,12 @@ class CortexM(Scratch):
         self.assert_refused(self.size_problems(code, flash=10, ram=20)[0], "flash of a: 11 bytes")
         self.assert_refused(self.size_problems(code, ram=19)[0], "ram of a: 20 bytes")
 
+    def test_only_structs_are_states(self):
+        self.write("include/insole/base/kind.h", "typedef enum {\n    A\n} insole_kind_t;\n")
+        self.write("include/insole/base/deep.h",
+                   "typedef struct {\n    struct {\n        int a;\n    } x;\n} insole_deep_t;\n")
+        self.assertEqual(sizes.state_types(self.root), {"deep": "insole_deep_t"})
+
     def test_variables_of_the_library_are_found(self):
         self.assert_refused(self.size_problems("int counter;\n", ram=20)[0],
                             "4 bytes of variables")
