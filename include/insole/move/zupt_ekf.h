@@ -42,13 +42,13 @@ extern "C" {
         "attitude random walk at rest")                                                           \
     KEY(REAL, gyro_turn_noise_rts, 1.5e-4, 0.0, 0.1, "sqrt(s)",                                   \
         "attitude random walk per turn rate (scale, misalignment); 0 = off")                      \
-    KEY(REAL, clip_noise_rad_rts, 0.03, 0.0, 10.0, "rad/sqrt(s)",                                 \
+    KEY(REAL, clip_noise_rad_rts, 0.02, 0.0, 10.0, "rad/sqrt(s)",                                 \
         "attitude random walk about an axis whose gyro is clipped; 0 = off")                      \
     KEY(REAL, sigma_accel_bias_mps2, 0.05, 0.0, 1.0, "m/s^2",                                     \
         "1-sigma of the accelerometer bias at the start; 0 = nine states, no bias")               \
     KEY(REAL, accel_bias_walk_mps2_rts, 1.0e-4, 0.0, 0.1, "m/s^2/sqrt(s)",                        \
         "random walk of the accelerometer bias")                                                  \
-    KEY(REAL, sigma_zupt_mps, 0.02, 0.0001, 1.0, "m/s",                                           \
+    KEY(REAL, sigma_zupt_mps, 0.027, 0.0001, 1.0, "m/s",                                           \
         "1-sigma of a stance's velocity over 5 ms; other intervals in proportion")                \
     KEY(REAL, roll_height_m, 0.09, 0.0, 0.5, "m",                                                 \
         "height of the sensor over the line the foot rolls on; 0 = a stance stands still")

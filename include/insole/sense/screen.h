@@ -37,7 +37,7 @@ extern "C" {
     KEY(REAL, spike_gyro_radps, 8.0, 0.1, 1.0e6, "rad/s", "the same for the gyro; 1e6 = off")     \
     KEY(REAL, gyro_range_radps, 0.0, 0.0, 100.0, "rad/s",                                         \
         "end of the gyro's range where it is known; 0 = recognised as it clips")                  \
-    KEY(REAL, clip_share, 0.82, 0.5, 1.0, "",                                                     \
+    KEY(REAL, clip_share, 0.88, 0.5, 1.0, "",                                                     \
         "share of its range from which a gyro axis counts as clipped: many bend before they end")
 /* clang-format on */
 
