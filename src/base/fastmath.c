@@ -21,13 +21,13 @@ static double minus_quarter_turns(double x, double k)
     return (x - k * 1.5703125) - k * 4.838267948966192e-4;
 }
 
-#define sin_of sin
-#define cos_of cos
-#define atan_of atan
-#define exp_of exp
-#define log_of log
+#define sin_of               sin
+#define cos_of               cos
+#define atan_of              atan
+#define exp_of               exp
+#define log_of               log
 #define half_pi_minus(angle) (0.5 * INSOLE_PI - (angle))
-#define pi_minus(angle) (INSOLE_PI - (angle))
+#define pi_minus(angle)      (INSOLE_PI - (angle))
 
 #else
 

@@ -3,6 +3,9 @@
 
 #include "insole/base/fastmath.h"
 
+/* One n-th, folded by the compiler. */
+#define SHARE(n) (INSOLE_R(1.0) / INSOLE_R(n))
+
 insole_quat_t insole_quat_normalize(insole_quat_t q)
 {
     insole_real_t n = insole_sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
@@ -18,14 +21,13 @@ insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad)
     insole_real_t half2 = INSOLE_R(0.25) * insole_vec3_norm2(rotation_rad);
     insole_real_t c, s; /* cos(half), sin(half) / (2 half) */
     if (half2 < INSOLE_R(0.01)) {
-        c = INSOLE_R(1.0) -
-            half2 * (INSOLE_R(0.5) - half2 * (INSOLE_R(0.04166666667) - half2 * INSOLE_R(0.001388888889)));
-        s = INSOLE_R(0.5) - half2 * (INSOLE_R(0.08333333333) -
-                                     half2 * (INSOLE_R(0.004166666667) - half2 * INSOLE_R(9.920634921e-5)));
+        const insole_real_t one = INSOLE_R(1.0), z = half2;
+        c = one - z * SHARE(2.0) * (one - z * SHARE(12.0) * (one - z * SHARE(30.0)));
+        s = SHARE(2.0) * (one - z * SHARE(6.0) * (one - z * SHARE(20.0) * (one - z * SHARE(42.0))));
     } else {
         insole_real_t half = insole_sqrt(half2);
         c = insole_cos(half);
-        s = INSOLE_R(0.5) * insole_sin(half) / half;
+        s = SHARE(2.0) * insole_sin(half) / half;
     }
     return insole_quat(c, s * rotation_rad.x, s * rotation_rad.y, s * rotation_rad.z);
 }
@@ -36,7 +38,8 @@ insole_quat_t insole_quat_from_gravity(insole_vec3_t f_b)
     insole_real_t roll = insole_atan2(f_b.y, f_b.z);
     insole_real_t pitch = insole_atan2(-f_b.x, horizontal);
     insole_quat_t q_roll = insole_quat_from_rotvec(insole_vec3(roll, INSOLE_R(0.0), INSOLE_R(0.0)));
-    insole_quat_t q_pitch = insole_quat_from_rotvec(insole_vec3(INSOLE_R(0.0), pitch, INSOLE_R(0.0)));
+    insole_quat_t q_pitch =
+        insole_quat_from_rotvec(insole_vec3(INSOLE_R(0.0), pitch, INSOLE_R(0.0)));
     return insole_quat_normalize(insole_quat_mul(q_pitch, q_roll));
 }
 
@@ -47,6 +50,6 @@ insole_quat_t insole_quat_from_yaw(insole_real_t yaw_rad)
 
 insole_real_t insole_quat_yaw(insole_quat_t q)
 {
-    insole_vec3_t x_n = insole_quat_rotate(q, insole_vec3(INSOLE_R(1.0), INSOLE_R(0.0), INSOLE_R(0.0)));
-    return insole_atan2(x_n.y, x_n.x);
+    insole_mat3_t C = insole_quat_to_mat3(q);
+    return insole_atan2(C.r1.x, C.r0.x);
 }

@@ -18,25 +18,25 @@
 
 #include "insole/base/real.h"
 
-#define INSOLE_CONFIG_TYPE_REAL insole_real_t
-#define INSOLE_CONFIG_TYPE_INT int32_t
+#define INSOLE_CONFIG_TYPE_REAL   insole_real_t
+#define INSOLE_CONFIG_TYPE_INT    int32_t
 #define INSOLE_CONFIG_TYPE_CHOICE int32_t
 
-#define INSOLE_CONFIG_LITERAL_REAL(number) INSOLE_R(number)
-#define INSOLE_CONFIG_LITERAL_INT(number) number
+#define INSOLE_CONFIG_LITERAL_REAL(number)   INSOLE_R(number)
+#define INSOLE_CONFIG_LITERAL_INT(number)    number
 #define INSOLE_CONFIG_LITERAL_CHOICE(number) number
 
 /** A member of the struct. */
-#define INSOLE_CONFIG_MEMBER(kind, name, value, low, high, unit, text) \
+#define INSOLE_CONFIG_MEMBER(kind, name, value, low, high, unit, text)                             \
     INSOLE_CONFIG_TYPE_##kind name;
 
 /** The member's default, for the initialiser of the struct. */
-#define INSOLE_CONFIG_DEFAULT(kind, name, value, low, high, unit, text) \
+#define INSOLE_CONFIG_DEFAULT(kind, name, value, low, high, unit, text)                            \
     INSOLE_CONFIG_LITERAL_##kind(value),
 
 /** `&& in range`, for a check of the struct that `config` points at; not-a-number is outside. */
-#define INSOLE_CONFIG_IN_RANGE(kind, name, value, low, high, unit, text) \
-    &&config->name >= INSOLE_CONFIG_LITERAL_##kind(low) &&                \
+#define INSOLE_CONFIG_IN_RANGE(kind, name, value, low, high, unit, text)                           \
+    &&config->name >= INSOLE_CONFIG_LITERAL_##kind(low) &&                                         \
         config->name <= INSOLE_CONFIG_LITERAL_##kind(high)
 
 #endif

@@ -1,6 +1,6 @@
 /** @file mat.h  3x3 matrices by value: the blocks that the filters are written in.
  *
- *  `insole_mat3_t` is a full block, row by row; `insole_sym3_t` a symmetric one, its upper triangle.
+ *  `insole_mat3_t` is a full block, row by row; `insole_sym3_t` a symmetric one, upper triangle.
  *  A product with a skew matrix [v]x never builds the matrix and never multiplies its zeros.
  *
  *  SPDX-License-Identifier: MIT
@@ -33,7 +33,8 @@ static inline insole_mat3_t insole_mat3_zero(void)
 
 static inline insole_mat3_t insole_mat3_transpose(insole_mat3_t a)
 {
-    return insole_mat3_rows(insole_vec3(a.r0.x, a.r1.x, a.r2.x), insole_vec3(a.r0.y, a.r1.y, a.r2.y),
+    return insole_mat3_rows(insole_vec3(a.r0.x, a.r1.x, a.r2.x),
+                            insole_vec3(a.r0.y, a.r1.y, a.r2.y),
                             insole_vec3(a.r0.z, a.r1.z, a.r2.z));
 }
 
@@ -145,8 +146,7 @@ static inline insole_sym3_t insole_sym3_add_diagonal(insole_sym3_t a, insole_rea
 }
 
 /** A + s v v' */
-static inline insole_sym3_t insole_sym3_add_outer(insole_sym3_t a, insole_real_t s,
-                                                  insole_vec3_t v)
+static inline insole_sym3_t insole_sym3_add_outer(insole_sym3_t a, insole_real_t s, insole_vec3_t v)
 {
     insole_vec3_t w = insole_vec3_scale(v, s);
     insole_sym3_t c = {a.xx + w.x * v.x, a.xy + w.x * v.y, a.xz + w.x * v.z,
@@ -155,13 +155,12 @@ static inline insole_sym3_t insole_sym3_add_outer(insole_sym3_t a, insole_real_t
 }
 
 /** A + s (M + M') */
-static inline insole_sym3_t insole_sym3_add_twice(insole_sym3_t a, insole_real_t s,
-                                                  insole_mat3_t m)
+static inline insole_sym3_t insole_sym3_add_twice(insole_sym3_t a, insole_real_t s, insole_mat3_t m)
 {
     insole_real_t d = s + s;
-    insole_sym3_t c = {a.xx + d * m.r0.x,           a.xy + s * (m.r0.y + m.r1.x),
-                       a.xz + s * (m.r0.z + m.r2.x), a.yy + d * m.r1.y,
-                       a.yz + s * (m.r1.z + m.r2.y), a.zz + d * m.r2.z};
+    insole_sym3_t c = {
+        a.xx + d * m.r0.x, a.xy + s * (m.r0.y + m.r1.x), a.xz + s * (m.r0.z + m.r2.x),
+        a.yy + d * m.r1.y, a.yz + s * (m.r1.z + m.r2.y), a.zz + d * m.r2.z};
     return c;
 }
 

@@ -16,13 +16,13 @@
 
 #ifdef INSOLE_DOUBLE
 typedef double insole_real_t;
-#define INSOLE_R(literal) literal
-#define INSOLE_REAL_MAX DBL_MAX
+#define INSOLE_R(literal)   literal
+#define INSOLE_REAL_MAX     DBL_MAX
 #define INSOLE_REAL_EPSILON DBL_EPSILON
 #else
 typedef float insole_real_t;
-#define INSOLE_R(literal) literal##f
-#define INSOLE_REAL_MAX FLT_MAX
+#define INSOLE_R(literal)   literal##f
+#define INSOLE_REAL_MAX     FLT_MAX
 #define INSOLE_REAL_EPSILON FLT_EPSILON
 #endif
 

@@ -30,7 +30,8 @@ typedef struct {
 /** @return INSOLE_ERR_VALUE when `rate_hz` is 0 */
 insole_status_t insole_ticks_init(insole_ticks_t *ticks, uint32_t rate_hz, uint32_t counter);
 
-/** Microseconds since init; a counter that went "back" has wrapped once. 0 for NULL. */
+/** Whole microseconds since init; a counter that went "back" has wrapped once.
+ *  @return 0 for NULL and for a clock that was never set up (all zero) */
 uint64_t insole_ticks_now_us(insole_ticks_t *ticks, uint32_t counter);
 
 #ifdef __cplusplus

@@ -26,9 +26,9 @@ typedef struct {
 
 /** One access point heard. */
 typedef struct {
-    uint32_t id;            /**< index of the access point in the caller's list */
-    insole_real_t rss_dbm;  /**< received signal strength */
-    uint32_t age_us;        /**< time since the radio heard it */
+    uint32_t id;           /**< index of the access point in the caller's list */
+    insole_real_t rss_dbm; /**< received signal strength */
+    uint32_t age_us;       /**< time since the radio heard it */
 } insole_rss_t;
 
 /** All access points that arrive together. */
@@ -60,21 +60,21 @@ typedef struct {
 typedef struct {
     uint64_t t_us;
     insole_real_t length_m;
-    insole_quat_t attitude;             /**< b to n */
-    insole_sym3_t attitude_cov_rad2;    /**< of the small rotation in n */
-    insole_real_t accel_sigma_mps2;     /**< scatter of |a| over the step */
+    insole_quat_t attitude;          /**< b to n */
+    insole_sym3_t attitude_cov_rad2; /**< of the small rotation in n */
+    insole_real_t accel_sigma_mps2;  /**< scatter of |a| over the step */
 } insole_step_t;
 
 /** One stride of the foot, from a stance to the next. */
 typedef struct {
-    uint64_t begin_us, end_us;           /**< end of the stance before; begin of the stance after */
-    insole_vec3_t displacement_m;        /**< n, by the inertial filter */
-    insole_real_t length_m;              /**< horizontal, by the inertial filter */
-    insole_real_t model_length_m;        /**< by [TwoOrder (33)] */
-    insole_real_t heading_rad;           /**< direction of the displacement */
-    insole_real_t turn_rad;              /**< change of the foot's yaw */
-    insole_real_t accel_min_mps2;        /**< smallest vertical acceleration on the way */
-    insole_real_t accel_max_mps2;        /**< largest */
+    uint64_t begin_us, end_us;    /**< end of the stance before; begin of the stance after */
+    insole_vec3_t displacement_m; /**< n, by the inertial filter */
+    insole_real_t length_m;       /**< horizontal, by the inertial filter */
+    insole_real_t model_length_m; /**< by [TwoOrder (33)] */
+    insole_real_t heading_rad;    /**< direction of the displacement */
+    insole_real_t turn_rad;       /**< change of the foot's yaw */
+    insole_real_t accel_min_mps2; /**< smallest vertical acceleration on the way */
+    insole_real_t accel_max_mps2; /**< largest */
 } insole_stride_t;
 
 /** How far a position can be trusted. */
@@ -89,8 +89,8 @@ typedef enum {
 /** A position that leaves the library. */
 typedef struct {
     uint64_t t_us;
-    insole_vec3_t position_m;                  /**< m (or n where there is no map) */
-    insole_real_t heading_rad;                 /**< direction walked */
+    insole_vec3_t position_m;  /**< m (or n where there is no map) */
+    insole_real_t heading_rad; /**< direction walked */
     insole_real_t var_x_m2, cov_xy_m2, var_y_m2, var_z_m2;
     insole_real_t var_heading_rad2;
     insole_fix_state_t state;
