@@ -176,9 +176,8 @@ insole_real_t insole_atan2(insole_real_t y, insole_real_t x)
     }
     insole_real_t angle = atan_of(shorter < longer ? shorter / longer : INSOLE_R(1.0));
     if (height > width) {
-        angle = half_pi_minus(angle);
-    }
-    if (x < INSOLE_R(0.0)) {
+        angle = half_pi_minus(x < INSOLE_R(0.0) ? -angle : angle);
+    } else if (x < INSOLE_R(0.0)) {
         angle = pi_minus(angle);
     }
     return y < INSOLE_R(0.0) && angle < INSOLE_PI ? -angle : angle;

@@ -8,6 +8,35 @@
 #include <check.h>
 #include <math.h>
 
+/** The largest of many deviations and where it was: one assertion after a long loop, since every
+ *  ck_assert costs a system call. Start from {0.0, 0.0}. */
+typedef struct {
+    double off, at;
+} worst_t;
+
+/** Not-a-number is the worst of all. */
+static inline void worst_note(worst_t *worst, double off, double at)
+{
+    if (!(off <= worst->off) && !isnan(worst->off)) {
+        worst->off = off;
+        worst->at = at;
+    }
+}
+
+/** A yes-or-no fact: 1 off when it does not hold. */
+static inline void worst_require(worst_t *worst, int holds, double at)
+{
+    worst_note(worst, holds ? 0.0 : 1.0, at);
+}
+
+/** worst.off <= limit; tells where. */
+#define ASSERT_WORST(worst, limit, unit)                                                         \
+    ck_assert_msg((worst).off <= (double)(limit), "%s: %.9g %s at %.9g, expected at most %.9g", \
+                  #worst, (worst).off, unit, (worst).at, (double)(limit))
+
+/** Every worst_require() held. */
+#define ASSERT_ALL_HELD(worst) ASSERT_WORST(worst, 0.0, "(1 = does not hold)")
+
 /** |value - expected| <= tolerance; not-a-number fails. */
 #define ASSERT_NEAR(value, expected, tolerance, unit)                                          \
     do {                                                                                       \

@@ -2,15 +2,16 @@
  *
  *  Only additions, multiplications, divisions and exponent arithmetic in IEEE single precision,
  *  compiled without contraction; no table, no loop, no division in sin, cos, exp and log. In a
- *  build with INSOLE_DOUBLE the inside of the range is libm's, the outside is the same.
+ *  build with INSOLE_DOUBLE the inside of the range is libm's (wrap_pi: 2.5 ulp of pi), the outside
+ *  is the same.
  *
  *  | function       | range of the promise    | error, ulp of result | outside the range        |
  *  |----------------|-------------------------|----------------------|--------------------------|
- *  | insole_sin/cos | |x| <= 1e4 rad          | 1.5, zeros included  | counts as x = 0          |
- *  | insole_atan2   | all finite              | 1.6                  | as libm; (0, 0) gives 0  |
+ *  | insole_sin/cos | |x| <= 1e4 rad          | 1.6, zeros included  | counts as x = 0          |
+ *  | insole_atan2   | all finite              | 1.7                  | as libm; (0, 0) gives 0  |
  *  | insole_exp     | results that are normal | 1                    | 0 below, REAL_MAX above  |
  *  | insole_log     | 0 < x <= REAL_MAX       | 1                    | -REAL_MAX, REAL_MAX over |
- *  | insole_wrap_pi | |x| <= 1e4 rad          | 1.2 ulp of pi        | counts as x = 0          |
+ *  | insole_wrap_pi | |x| <= 1e4 rad          | 1.3 ulp of pi        | counts as x = 0          |
  *
  *  What is not a number stays so; everything else, infinities too, gives a finite result.
  *
