@@ -198,24 +198,31 @@ static inline insole_sym3_t insole_mat3_mul_t_sym(insole_mat3_t a, insole_mat3_t
     return s;
 }
 
-/** Inverse of a positive definite symmetric block.
- *  @return false, and `inverse` untouched, when the block is not positive definite */
+/** Inverse of a positive definite symmetric block, by pivots: nothing of third order that could
+ *  leave the range of a float, and the inverse is as definite as the block.
+ *  @return false, and `inverse` untouched, when the block is not positive definite or its inverse
+ *          is not finite */
 static inline bool insole_sym3_inverse(insole_sym3_t a, insole_sym3_t *inverse)
 {
-    insole_real_t cx = a.yy * a.zz - a.yz * a.yz;
-    insole_real_t cy = a.xz * a.yz - a.xy * a.zz;
-    insole_real_t cz = a.xy * a.yz - a.xz * a.yy;
-    insole_real_t determinant = a.xx * cx + a.xy * cy + a.xz * cz;
-    if (!(a.xx > INSOLE_R(0.0) && a.xx * a.yy > a.xy * a.xy && determinant > INSOLE_R(0.0))) {
+    /* A = L D L' with unit lower L, then M = L^-1 and A^-1 = M' D^-1 M */
+    insole_real_t ix = INSOLE_R(1.0) / a.xx;
+    insole_real_t l_yx = a.xy * ix, l_zx = a.xz * ix;
+    insole_real_t d_y = a.yy - l_yx * a.xy, c_zy = a.yz - l_zx * a.xy;
+    insole_real_t iy = INSOLE_R(1.0) / d_y;
+    insole_real_t l_zy = c_zy * iy;
+    insole_real_t d_z = a.zz - l_zx * a.xz - l_zy * c_zy;
+    insole_real_t iz = INSOLE_R(1.0) / d_z;
+    insole_real_t m_zx = l_yx * l_zy - l_zx;
+    insole_sym3_t s = {ix + l_yx * l_yx * iy + m_zx * m_zx * iz,
+                       -l_yx * iy - m_zx * l_zy * iz,
+                       m_zx * iz,
+                       iy + l_zy * l_zy * iz,
+                       -l_zy * iz,
+                       iz};
+    bool definite = a.xx > INSOLE_R(0.0) && d_y > INSOLE_R(0.0) && d_z > INSOLE_R(0.0);
+    if (!definite || !insole_is_finite(s.xx + s.yy + s.zz)) {
         return false;
     }
-    insole_real_t d = INSOLE_R(1.0) / determinant;
-    insole_sym3_t s = {cx * d,
-                       cy * d,
-                       cz * d,
-                       (a.xx * a.zz - a.xz * a.xz) * d,
-                       (a.xy * a.xz - a.xx * a.yz) * d,
-                       (a.xx * a.yy - a.xy * a.xy) * d};
     *inverse = s;
     return true;
 }
