@@ -20,11 +20,13 @@ insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad)
 {
     insole_real_t half2 = INSOLE_R(0.25) * insole_vec3_norm2(rotation_rad);
     insole_real_t c, s; /* cos(half), sin(half) / (2 half) */
-    if (half2 < INSOLE_R(5e-4)) {
+    if (half2 < INSOLE_R(0.01)) {
         /* what these series leave out is below the last bit even of a double */
         const insole_real_t one = INSOLE_R(1.0), z = half2;
-        c = one - z * SHARE(2.0) * (one - z * SHARE(12.0) * (one - z * SHARE(30.0)));
-        s = SHARE(2.0) * (one - z * SHARE(6.0) * (one - z * SHARE(20.0) * (one - z * SHARE(42.0))));
+        c = one - z * SHARE(30.0) * (one - z * SHARE(56.0));
+        s = one - z * SHARE(42.0) * (one - z * SHARE(72.0));
+        c = one - z * SHARE(2.0) * (one - z * SHARE(12.0) * c);
+        s = SHARE(2.0) * (one - z * SHARE(6.0) * (one - z * SHARE(20.0) * s));
     } else {
         insole_real_t half = insole_sqrt(half2);
         c = insole_cos(half);

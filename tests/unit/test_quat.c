@@ -147,10 +147,10 @@ START_TEST(what_has_no_direction_becomes_the_identity)
 }
 END_TEST
 
-/* Angles on both sides of 0.0447 rad, where the series ends, and some turns. */
-static const double ANGLES_RAD[] = {0.0,        1e-30,  1e-12, 1e-6,      1e-3, 0.02, 0.0447,
-                                    0.04472,    0.0448, 0.2,   0.5,       1.0,  2.0,  3.0,
-                                    3.14159265, 4.0,    6.0,   6.2831853, 10.0, 100.0};
+/* Angles on both sides of 0.2 rad, where the series ends, and some turns. */
+static const double ANGLES_RAD[] = {0.0, 1e-30,  1e-12,     1e-6, 1e-3, 0.02, 0.1999,
+                                    0.2, 0.2001, 0.5,       1.0,  2.0,  3.0,  3.14159265,
+                                    4.0, 6.0,    6.2831853, 10.0, 100.0};
 enum { ANGLE_COUNT = sizeof ANGLES_RAD / sizeof ANGLES_RAD[0] };
 
 START_TEST(rotation_vectors_turn_as_rodrigues_says)
