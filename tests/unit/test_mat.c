@@ -280,13 +280,15 @@ END_TEST
 START_TEST(blocks_that_are_not_definite_are_refused)
 {
     const insole_real_t o = INSOLE_R(0.0), i = INSOLE_R(1.0), two = INSOLE_R(2.0);
-    const insole_real_t nan = (insole_real_t)NAN;
+    const insole_real_t nan = (insole_real_t)NAN, inf = (insole_real_t)INFINITY;
+    const insole_real_t tiny = INSOLE_R(0.1) / INSOLE_REAL_MAX; /* 1 / tiny is infinite */
     const insole_sym3_t bad[] = {
-        {o, o, o, o, o, o},   {i, o, o, i, o, o},   {i, o, o, o, o, i},    {o, o, o, i, o, i},
-        {-i, o, o, -i, o, i}, {i, o, o, -i, o, -i}, {-i, o, o, -i, o, -i}, {i, two, o, i, o, i},
-        {i, o, two, i, o, i}, {i, o, o, i, two, i}, {i, i, i, i, i, i},    {nan, o, o, i, o, i},
-        {i, o, o, nan, o, i}, {i, o, o, i, o, nan}, {i, nan, o, i, o, i},  {i, o, nan, i, o, i},
-        {i, o, o, i, nan, i},
+        {o, o, o, o, o, o},    {i, o, o, i, o, o},     {i, o, o, o, o, i},    {o, o, o, i, o, i},
+        {-i, o, o, -i, o, i},  {i, o, o, -i, o, -i},   {-i, o, o, -i, o, -i}, {i, two, o, i, o, i},
+        {i, o, two, i, o, i},  {i, o, o, i, two, i},   {i, i, i, i, i, i},    {nan, o, o, i, o, i},
+        {i, o, o, nan, o, i},  {i, o, o, i, o, nan},   {i, nan, o, i, o, i},  {i, o, nan, i, o, i},
+        {i, o, o, i, nan, i},  {inf, inf, o, i, o, i}, {i, inf, o, i, o, i},  {i, o, o, i, o, tiny},
+        {tiny, o, o, i, o, i},
     };
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         insole_sym3_t inverse = {i, i, i, i, i, i}, before = inverse;
