@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # usage: consume.sh static|shared SOURCE WORK
 # Builds and installs the library, then what a user would build: a program in C and one in C++, by
-# find_package and by pkg-config. A shared library must have a SONAME and show public names only.
+# find_package, by pkg-config and by add_subdirectory. A shared library must have a SONAME and show
+# public names only.
 set -eu
 kind=$1 source=$2 work=$3
 here=$(dirname "$0")
@@ -46,6 +47,13 @@ use_pkg_config() {
     run "$work/by_pkg_config"
 }
 
+use_subdirectory() {
+    "$CMAKE" -S "$here/app" -B "$work/whole" -DINSOLE_SOURCE="$source" -DWITH_CXX="$cxx"
+    "$CMAKE" --build "$work/whole"
+    [ ! -e "$work/whole/insole/tests" ] || fail 'a part of another project builds its tests'
+    run "$work/whole/consumer_c"
+}
+
 check_shared() {
     library=$prefix/$(cd "$prefix" && find . -name libinsole.so)
     readelf -d "$library" | grep -q 'SONAME.*libinsole\.so\.[0-9]' || fail 'no SONAME'
@@ -66,4 +74,5 @@ fi
 check_headers
 use_find_package
 use_pkg_config
+[ "$kind" = shared ] || use_subdirectory
 [ "$kind" = static ] || check_shared
