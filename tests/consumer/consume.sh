@@ -59,9 +59,9 @@ check_shared() {
     readelf -d "$library" | grep -q 'SONAME.*libinsole\.so\.[0-9]' || fail 'no SONAME'
     nm -D --defined-only "$library" | awk '{print $NF}' >"$work/exports"
     grep -q '^insole_status_text$' "$work/exports" || fail 'public names are hidden'
-    if grep -v '^insole_' "$work/exports"; then
-        fail 'names that are not public are visible'
-    fi
+    while read -r name; do
+        grep -rqw "$name" "$prefix/include" || fail "$name is visible, but no header tells of it"
+    done <"$work/exports"
 }
 
 install_library
