@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Gate: flash and RAM of each module on a Cortex-M4F.  usage: sizes.py ROOT ARCHIVE
 
-Flash is code and tables of the module's object; RAM is the size of insole_<stem>_t, which the
-caller owns. The library itself holds no variables: .data and .bss are empty.
+Flash is code and tables of the module's object; RAM is the largest struct of its header but the
+settings: the state, which the caller owns. The library holds no variables: .data and .bss are empty.
 """
 import re
 import sys
@@ -16,32 +16,33 @@ BUDGETS = Path(__file__).with_name("budgets.csv")
 CPU = "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16".split()
 
 
+STRUCT = re.compile(r"typedef\s+struct\s*\{(?:[^{}]|\{[^{}]*\})*\}\s*(\w+)\s*;")
+
+
 def state_types(root):
-    """{stem: type} of the headers that define a struct named like themselves."""
-    found = {}
-    for path in common.files(root, ["include/insole"], {".h"}):
-        name = f"insole_{path.stem}_t"
-        struct = r"typedef\s+struct\s*\{(?:[^{}]|\{[^{}]*\})*\}\s*%s;" % name
-        if re.search(struct, common.code_only(path.read_text())):
-            found[path.stem] = name
-    return found
+    """{type: stem of the header that defines it} of all structs but settings."""
+    return {name: path.stem for path in common.files(root, ["include/insole"], {".h"})
+            for name in STRUCT.findall(common.code_only(path.read_text()))
+            if not name.endswith("_config_t")}
 
 
 def struct_sizes(root, types):
-    """{stem: bytes}, by compiling one array of that size per struct."""
+    """{stem: bytes of its largest}, by compiling one array of that size per struct."""
     if not types:
         return {}
     headers = "".join(f'#include "{path.relative_to(root / "include").as_posix()}"\n'
                       for path in common.files(root, ["include/insole"], {".h"}))
-    arrays = "".join(f"char size_of_{stem}[sizeof({name})];\n" for stem, name in types.items())
+    arrays = "".join(f"char size_of_{name}[sizeof({name})];\n" for name in types)
     with tempfile.TemporaryDirectory() as folder:
         source, made = Path(folder, "sizes.c"), Path(folder, "sizes.o")
         source.write_text(headers + arrays)
         arm.tool("gcc", *CPU, "-std=c99", "-fno-common", "-I", root / "include", "-c", source,
                  "-o", made)
         listing = arm.tool("nm", "-S", made)
-    return {stem: int(size, 16)
-            for size, stem in re.findall(r"^\w+ (\w+) \w size_of_(\w+)$", listing, re.M)}
+    largest = {}
+    for size, name in re.findall(r"^\w+ (\w+) \w size_of_(\w+)$", listing, re.M):
+        largest[types[name]] = max(int(size, 16), largest.get(types[name], 0))
+    return largest
 
 
 def check(root, archive, budgets_csv=BUDGETS):

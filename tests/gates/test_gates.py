@@ -355,7 +355,8 @@ class CortexM(Scratch):
 
     def size_problems(self, code, flash=100, ram=16):
         archive = self.archive(code)
-        self.write("include/insole/base/a.h", "typedef struct {\n    char x[20];\n} insole_a_t;\n")
+        self.write("include/insole/base/a.h", "typedef struct {\n    char x[20];\n} insole_a_t;\n"
+                   "typedef struct {\n    char x[2];\n} insole_part_t;\n")
         budgets = self.write("budgets.csv", f"what,name,limit\nflash,*,{flash}\nram,*,{ram}\n")
         return sizes.check(self.root, archive, budgets)
 
@@ -371,7 +372,8 @@ class CortexM(Scratch):
         self.write("include/insole/base/kind.h", "typedef enum {\n    A\n} insole_kind_t;\n")
         self.write("include/insole/base/deep.h",
                    "typedef struct {\n    struct {\n        int a;\n    } x;\n} insole_deep_t;\n")
-        self.assertEqual(sizes.state_types(self.root), {"deep": "insole_deep_t"})
+        self.write("include/insole/base/set.h", "typedef struct {\n    int a;\n} insole_set_config_t;\n")
+        self.assertEqual(sizes.state_types(self.root), {"insole_deep_t": "deep"})
 
     def test_variables_of_the_library_are_found(self):
         self.assert_refused(self.size_problems("int counter;\n", ram=20)[0],

@@ -32,7 +32,7 @@ check_cppcheck() {
 
 check_tidy() {
     need clang-tidy
-    sources "$@" | xargs -n 1 -P 2 sh -c \
+    sources "$@" | xargs -r -n 1 -P 2 sh -c \
         'clang-tidy --quiet --warnings-as-errors="*" "$0" -- -std=c99 -I include -I tools 2>/dev/null'
 }
 
