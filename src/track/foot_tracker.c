@@ -16,9 +16,8 @@ static const uint64_t WALK_MEMORY_US = 1500000u;
 /* Share of its length by which a stride of the model may be wrong. */
 static const insole_real_t MODEL_ERROR_SHARE = INSOLE_R(0.1);
 
-/* A start beyond these tells of an error, not of a place. */
-static const insole_real_t FARTHEST_M = INSOLE_R(1.0e6);
-static const insole_real_t TURNS_RAD = INSOLE_R(100.0);
+static const insole_real_t FARTHEST_M = INSOLE_R(1.0e6); /* a start beyond is an error */
+static const insole_real_t TURNS_RAD = INSOLE_R(100.0);  /* and so is such a heading */
 
 const insole_foot_tracker_config_t insole_foot_tracker_defaults = {
     INSOLE_FOOT_TRACKER_KEYS(INSOLE_CONFIG_DEFAULT){INSOLE_SCREEN_KEYS(INSOLE_CONFIG_DEFAULT)},
@@ -61,18 +60,12 @@ insole_status_t insole_foot_tracker_init(insole_foot_tracker_t *tracker,
     return init_parts(tracker, config);
 }
 
-static bool is_within(insole_real_t x, insole_real_t low, insole_real_t high)
-{
-    return x >= low && x <= high;
-}
-
 static bool is_plausible(const insole_start_t *start)
 {
-    bool place = is_within(start->x_m, -FARTHEST_M, FARTHEST_M) &&
-                 is_within(start->y_m, -FARTHEST_M, FARTHEST_M) &&
-                 is_within(start->sigma_m, ZERO, FARTHEST_M);
-    bool heading = is_within(start->heading_rad, -TURNS_RAD, TURNS_RAD) &&
-                   is_within(start->sigma_rad, ZERO, TURNS_RAD);
+    bool place = insole_abs(start->x_m) <= FARTHEST_M && insole_abs(start->y_m) <= FARTHEST_M &&
+                 start->sigma_m >= ZERO && start->sigma_m <= FARTHEST_M;
+    bool heading = insole_abs(start->heading_rad) <= TURNS_RAD && start->sigma_rad >= ZERO &&
+                   start->sigma_rad <= TURNS_RAD;
     return place && (heading || !start->has_heading);
 }
 
