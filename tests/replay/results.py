@@ -8,7 +8,7 @@
     results.py ... --file llio_36 --expected tests/replay/expected.csv         one recording
     results.py ... --expect                                                    the file expected.csv
 
-Every replay runs on defaults but for what its row says; rows of the track come with every sample.
+Every replay runs on defaults but for what its row says.
 The exit code is 77 where the recordings are absent.
 """
 import argparse
@@ -38,7 +38,7 @@ class Bench:
 
     def score(self, name, options=(), log=None):
         log = log or self.data / f"{name}.csv"
-        command = [self.insole, "replay", str(log), "--rate", "0", "--out",
+        command = [self.insole, "replay", str(log), "--out",
                    f"{self.scratch.name}/track.csv", *options]
         subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
         command = [self.insole, "score", f"{self.scratch.name}/track.csv",
