@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/base/snapshot.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 /* Byte offsets of the header's five little-endian words. */
@@ -42,13 +43,18 @@ static void put_header(uint8_t *header, uint32_t kind, const void *state, size_t
     put_word(header + AT_CRC, insole_crc32(insole_crc32(0u, header, AT_CRC), state, size));
 }
 
+static bool fits_a_word(size_t size)
+{
+    return (uint32_t)size == size;
+}
+
 insole_status_t insole_snapshot_save(uint32_t kind, const void *state, size_t size, void *buffer,
                                      size_t room, size_t *used)
 {
     if (state == NULL || buffer == NULL || used == NULL) {
         return INSOLE_ERR_NULL;
     }
-    if ((uint64_t)size > UINT32_MAX) {
+    if (!fits_a_word(size)) {
         return INSOLE_ERR_VALUE;
     }
     if (room < INSOLE_SNAPSHOT_HEADER_BYTES || room - INSOLE_SNAPSHOT_HEADER_BYTES < size) {
@@ -66,7 +72,7 @@ insole_status_t insole_snapshot_load(uint32_t kind, void *state, size_t size, co
     if (state == NULL || buffer == NULL) {
         return INSOLE_ERR_NULL;
     }
-    if ((uint64_t)size > UINT32_MAX) {
+    if (!fits_a_word(size)) {
         return INSOLE_ERR_VALUE;
     }
     if (count < INSOLE_SNAPSHOT_HEADER_BYTES || count - INSOLE_SNAPSHOT_HEADER_BYTES < size) {

@@ -129,15 +129,6 @@ static void block_end(insole_still_bias_t *rest)
     rest->blocks = 1u;
 }
 
-/* The first sample, or the first after a gap. */
-static void begin_stream(insole_still_bias_t *rest, const insole_imu_t *imu)
-{
-    rest->first_us = rest->has_first ? rest->first_us : imu->t_us;
-    rest->has_first = true;
-    rest->blocks = 0u;
-    block_begin(&rest->block, imu);
-}
-
 insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_imu_t *imu)
 {
     if (!rest || !imu) {
@@ -149,7 +140,10 @@ insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_i
         return finite ? INSOLE_ERR_TIME : INSOLE_ERR_VALUE;
     }
     if (!rest->has_first || imu->t_us - rest->last_us > GAP_US) {
-        begin_stream(rest, imu);
+        rest->first_us = rest->has_first ? rest->first_us : imu->t_us;
+        rest->has_first = true;
+        rest->blocks = 0u;
+        block_begin(&rest->block, imu);
     }
     rest->last_us = imu->t_us;
     block_add(&rest->block, imu);
