@@ -1,0 +1,193 @@
+/** @file settings.h  Everything that can be set in a scenario: `group.name = value`.
+ *
+ *  One list per group, in the manner of base/config.h: from it come the struct, the defaults, the
+ *  check of the ranges and the table of maps/README.md. REAL is a double here, CHOICE an int32_t
+ *  whose unit column names its values 0, 1, ... Amounts called "1-sigma" are drawn once per
+ *  sensor and axis from the seed.
+ *
+ *      sim_settings_t settings = sim_settings_defaults;
+ *      if (!sim_settings_set(&settings, "imu.rate_hz", "100", &error)) ...
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_SIM_SETTINGS_H
+#define INSOLE_SIM_SETTINGS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "sim/error.h"
+
+/** How the walker goes: speeds, steps and their variation. */
+#define SIM_WALK_KEYS(KEY)                                                                         \
+    KEY(REAL, lead_in_s, 3.0, 0.0, 3600.0, "s", "standing before the first step")                  \
+    KEY(REAL, lead_out_s, 2.0, 0.0, 3600.0, "s", "standing after the last step")                   \
+    KEY(REAL, step_length_m, 0.66, 0.3, 1.2, "m",                                                  \
+        "step length at 1 m/s; it grows with the square root of the speed")                        \
+    KEY(REAL, run_above_mps, 1.9, 0.5, 10.0, "m/s", "faster steps are run; 10 = never")            \
+    KEY(REAL, run_rate_hz, 2.6, 1.5, 4.0, "1/s", "steps per second when running")                  \
+    KEY(REAL, accel_mps2, 1.2, 0.2, 5.0, "m/s^2", "how quickly the walker speeds up and slows")    \
+    KEY(REAL, turn_radius_m, 0.6, 0.1, 10.0, "m", "radius of the arc round a corner")              \
+    KEY(REAL, corner_mps2, 1.8, 0.2, 10.0, "m/s^2",                                                \
+        "sideways acceleration allowed on that arc; it slows the walker")                          \
+    KEY(REAL, spot_turn_rad, 1.0, 0.2, 1.6, "rad", "largest turn of a foot in a turn on the spot") \
+    KEY(REAL, spot_step_s, 0.6, 0.3, 2.0, "s", "duration of each step of it")                      \
+    KEY(REAL, riser_m, 0.17, 0.05, 0.3, "m", "height of a stair, before rounding to whole stairs") \
+    KEY(REAL, length_spread, 0.02, 0.0, 0.2, "1", "variation of step length, 1-sigma, relative")   \
+    KEY(REAL, time_spread, 0.02, 0.0, 0.2, "1", "variation of step duration, 1-sigma, relative")   \
+    KEY(REAL, place_spread_m, 0.01, 0.0, 0.1, "m", "sideways variation of the footfalls, 1-sigma") \
+    KEY(REAL, toe_spread_rad, 0.03, 0.0, 0.3, "rad", "variation of the foot's yaw, 1-sigma")       \
+    KEY(REAL, gravity_mps2, 9.81, 9.7, 9.9, "m/s^2", "local gravity")
+
+/** How the foot moves. Angles are those of a stride of 1.4 m; shorter strides have smaller ones. */
+#define SIM_GAIT_KEYS(KEY)                                                                         \
+    KEY(CHOICE, foot, 0, 0, 1, "right|left", "the foot that carries the sensor")                   \
+    KEY(REAL, width_m, 0.12, 0.0, 0.4, "m", "distance of the lines of the two feet")               \
+    KEY(REAL, toe_out_rad, 0.10, -0.5, 0.5, "rad", "how far the toes point outwards")              \
+    KEY(REAL, heel_m, 0.05, 0.01, 0.2, "m", "heel edge behind the foot's origin")                  \
+    KEY(REAL, ball_m, 0.15, 0.01, 0.3, "m", "ball edge ahead of it")                               \
+    KEY(REAL, soft_rad, 0.07, 0.02, 0.5, "rad",                                                    \
+        "the sole rolls from heel to ball between +- this pitch")                                  \
+    KEY(REAL, stance_share, 0.55, 0.5, 0.8, "1", "share of the foot on the ground at 1.2 m/s")     \
+    KEY(REAL, run_stance_share, 0.36, 0.2, 0.5, "1", "the same, running at 2.5 m/s")               \
+    KEY(REAL, toe_off_rad, 1.12, 0.0, 1.5, "rad", "largest pitch toe down, walking")               \
+    KEY(REAL, run_toe_off_rad, 0.95, 0.0, 1.5, "rad", "pitch toe down after toe-off, running")     \
+    KEY(REAL, run_fold_rad, 0.40, 0.0, 1.5, "rad", "further pitch while the leg folds, running")   \
+    KEY(REAL, strike_rad, 0.45, 0.0, 1.0, "rad", "largest pitch toe up, walking")                  \
+    KEY(REAL, run_strike_rad, 0.40, 0.0, 1.0, "rad", "largest pitch toe up, running")              \
+    KEY(REAL, flat_roll_rad, 0.085, 0.0, 0.3, "rad",                                               \
+        "pitch rolled over in stance; 0 = a flat foot")                                            \
+    KEY(REAL, clearance_m, 0.04, 0.0, 0.3, "m", "lift added in the middle of the swing")           \
+    KEY(REAL, run_clearance_m, 0.06, 0.0, 0.5, "m", "the same, running")                           \
+    KEY(REAL, side_swing_m, 0.03, -0.2, 0.2, "m", "sideways bow of the swing, outwards")           \
+    KEY(REAL, swing_roll_rad, 0.22, 0.0, 0.6, "rad", "roll of the foot in swing")                  \
+    KEY(REAL, swing_yaw_rad, 0.20, 0.0, 0.6, "rad", "yaw of the foot in swing")                    \
+    KEY(REAL, wobble_rad, 0.0015, 0.0, 0.05, "rad", "trembling of a walking foot, rms; 0 = off")   \
+    KEY(REAL, still_rad, 0.00005, 0.0, 0.01, "rad", "trembling of a standing foot, rms; 0 = off")  \
+    KEY(REAL, settle_mps, 0.7, 0.0, 3.0, "m/s",                                                    \
+        "speed of a walking foot against the ground when it strikes; 0 = off")                     \
+    KEY(REAL, run_settle_mps, 1.0, 0.0, 5.0, "m/s", "the same, running")                           \
+    KEY(REAL, settle_s, 0.022, 0.005, 0.05, "s", "time constant of the settling after it")         \
+    KEY(REAL, shock_mps2, 70.0, 0.0, 300.0, "m/s^2",                                               \
+        "ringing after heel strike, walking; 0 = off")                                             \
+    KEY(REAL, run_shock_mps2, 70.0, 0.0, 500.0, "m/s^2", "the same, running")                      \
+    KEY(REAL, shock_radps, 3.0, 0.0, 30.0, "rad/s", "ringing of the pitch rate, walking; 0 = off") \
+    KEY(REAL, shock_hz, 9.0, 3.0, 50.0, "Hz", "its frequency; its double rings as well")           \
+    KEY(REAL, shock_decay_s, 0.04, 0.005, 0.1, "s", "its time constant")                           \
+    KEY(REAL, spread, 0.08, 0.0, 0.5, "1", "variation of all these from stride to stride, 1-sigma")
+
+/** Where the sensor sits on the foot, and how it is turned: foot from sensor is
+ *  Rz(yaw) Ry(pitch) Rx(roll); foot axes are forward, left, up. */
+#define SIM_MOUNT_KEYS(KEY)                                                                        \
+    KEY(REAL, x_m, 0.06, -0.5, 0.5, "m", "sensor ahead of the foot's origin")                      \
+    KEY(REAL, y_m, 0.0, -0.5, 0.5, "m", "sensor to the left of it")                                \
+    KEY(REAL, z_m, 0.08, -0.5, 0.5, "m", "sensor above the sole")                                  \
+    KEY(REAL, roll_rad, 0.1, -3.2, 3.2, "rad", "turn about the sensor's x axis")                   \
+    KEY(REAL, pitch_rad, 0.5, -1.6, 1.6, "rad", "then about y; positive lowers the x axis")        \
+    KEY(REAL, yaw_rad, 0.2, -3.2, 3.2, "rad", "then about z; positive turns x to the left")
+
+/** The sensor. `matched` leaves white noise alone, `ideal` nothing at all. */
+#define SIM_IMU_KEYS(KEY)                                                                          \
+    KEY(CHOICE, model, 0, 0, 2, "full|matched|ideal", "which errors the sensor has")               \
+    KEY(REAL, rate_hz, 200.0, 60.0, 1000.0, "Hz", "samples per second")                            \
+    KEY(CHOICE, sampling, 0, 0, 1, "average|point",                                                \
+        "a sample is the mean since the one before, or the value at its stamp")                    \
+    KEY(REAL, accel_noise_mps2_rthz, 0.00098, 0.0, 0.1, "m/s^2/sqrt(Hz)",                          \
+        "accelerometer noise: 1-sigma of a mean over 1 s; 100 ug/sqrt(Hz)")                        \
+    KEY(REAL, gyro_noise_radps_rthz, 0.000122, 0.0, 0.01, "rad/s/sqrt(Hz)",                        \
+        "gyroscope noise: 1-sigma of a mean over 1 s; 0.007 deg/s/sqrt(Hz)")                       \
+    KEY(REAL, accel_bias_mps2, 0.05, 0.0, 2.0, "m/s^2", "turn-on bias, 1-sigma")                   \
+    KEY(REAL, gyro_bias_radps, 0.0052, 0.0, 0.5, "rad/s", "turn-on bias, 1-sigma; 0.3 deg/s")      \
+    KEY(REAL, accel_drift_mps2, 0.0004, 0.0, 1.0, "m/s^2",                                         \
+        "wandering part of the bias (Gauss-Markov), 1-sigma")                                      \
+    KEY(REAL, gyro_drift_radps, 0.000024, 0.0, 0.1, "rad/s", "the same; 5 deg/h")                  \
+    KEY(REAL, drift_time_s, 200.0, 0.1, 100000.0, "s", "correlation time of that wandering")       \
+    KEY(REAL, accel_walk_mps2_rts, 0.0, 0.0, 0.1, "m/s^2/sqrt(s)", "random walk of the bias")      \
+    KEY(REAL, gyro_walk_radps_rts, 0.0, 0.0, 0.01, "rad/s/sqrt(s)", "random walk of the bias")     \
+    KEY(REAL, accel_scale, 0.002, 0.0, 0.1, "1", "scale error of each axis, 1-sigma")              \
+    KEY(REAL, gyro_scale, 0.003, 0.0, 0.1, "1", "scale error of each axis, 1-sigma")               \
+    KEY(REAL, accel_skew_rad, 0.002, 0.0, 0.1, "rad", "misalignment, 1-sigma of each cross term")  \
+    KEY(REAL, gyro_skew_rad, 0.002, 0.0, 0.1, "rad", "misalignment, 1-sigma of each cross term")   \
+    KEY(REAL, gyro_g_radps_per_mps2, 0.00009, 0.0, 0.01, "rad/s/(m/s^2)",                          \
+        "gyroscope's sensitivity to acceleration, 1-sigma of each term; 0.05 deg/s/g")             \
+    KEY(REAL, warm_up_k, 5.0, -60.0, 60.0, "K", "temperature gained after switching on")           \
+    KEY(REAL, warm_up_s, 300.0, 1.0, 100000.0, "s", "time constant of that")                       \
+    KEY(REAL, accel_per_k_mps2, 0.001, 0.0, 0.1, "m/s^2/K", "bias per degree, 1-sigma")            \
+    KEY(REAL, gyro_per_k_radps, 0.00009, 0.0, 0.01, "rad/s/K", "bias per degree, 1-sigma")         \
+    KEY(REAL, accel_range_mps2, 156.9, 10.0, 4000.0, "m/s^2", "range; 16 g")                       \
+    KEY(REAL, gyro_range_radps, 34.9, 1.0, 200.0, "rad/s", "range; 2000 deg/s")                    \
+    KEY(CHOICE, clip, 0, 0, 1, "hard|soft", "at the range, or bending from 90 % of it on")         \
+    KEY(REAL, accel_step_mps2, 0.0048, 0.0, 1.0, "m/s^2", "smallest step of a reading; 0 = off")   \
+    KEY(REAL, gyro_step_radps, 0.001065, 0.0, 0.1, "rad/s", "smallest step of a reading; 0 = off") \
+    KEY(REAL, stamp_jitter_s, 0.0, 0.0, 0.1, "s",                                                  \
+        "error of the stamps, 1-sigma; stamps still grow")                                         \
+    KEY(REAL, dropouts_hz, 0.0, 0.0, 10.0, "1/s", "how often samples get lost; 0 = never")         \
+    KEY(REAL, dropout_s, 0.02, 0.0, 10.0, "s", "mean duration of such a gap")
+
+/** What is written. */
+#define SIM_LOG_KEYS(KEY)                                                                          \
+    KEY(CHOICE, start, 1, 0, 1, "none|known", "whether the log tells where the walk begins")       \
+    KEY(REAL, start_sigma_m, 0.0, 0.0, 100.0, "m", "error of that, 1-sigma of each coordinate")    \
+    KEY(REAL, start_sigma_rad, 0.0, 0.0, 3.0, "rad", "error of its heading, 1-sigma")              \
+    KEY(REAL, truth_hz, 50.0, 0.0, 1000.0, "Hz", "rows of the truth; 0 = one per sensor sample")
+
+typedef double sim_key_type_REAL;
+typedef int32_t sim_key_type_CHOICE;
+#define SIM_KEY_MEMBER(kind, name, value, low, high, unit, text) sim_key_type_##kind name;
+
+typedef struct {
+    SIM_WALK_KEYS(SIM_KEY_MEMBER)
+} sim_walk_settings_t;
+typedef struct {
+    SIM_GAIT_KEYS(SIM_KEY_MEMBER)
+} sim_gait_settings_t;
+typedef struct {
+    SIM_MOUNT_KEYS(SIM_KEY_MEMBER)
+} sim_mount_settings_t;
+typedef struct {
+    SIM_IMU_KEYS(SIM_KEY_MEMBER)
+} sim_imu_settings_t;
+typedef struct {
+    SIM_LOG_KEYS(SIM_KEY_MEMBER)
+} sim_log_settings_t;
+
+enum { SIM_FOOT_RIGHT, SIM_FOOT_LEFT };
+enum { SIM_MODEL_FULL, SIM_MODEL_MATCHED, SIM_MODEL_IDEAL };
+enum { SIM_SAMPLING_AVERAGE, SIM_SAMPLING_POINT };
+enum { SIM_CLIP_HARD, SIM_CLIP_SOFT };
+enum { SIM_START_NONE, SIM_START_KNOWN };
+
+typedef struct {
+    sim_walk_settings_t walk;
+    sim_gait_settings_t gait;
+    sim_mount_settings_t mount;
+    sim_imu_settings_t imu;
+    sim_log_settings_t log;
+} sim_settings_t;
+
+extern const sim_settings_t sim_settings_defaults;
+
+/** One key, as data. */
+typedef struct {
+    const char *group, *name;
+    bool is_choice;
+    size_t offset; /**< of its member in sim_settings_t */
+    double value, low, high;
+    const char *unit; /**< of a choice: the names of its values, separated by `|` */
+    const char *text;
+} sim_key_t;
+
+/** Key of that number, in the order of the lists; NULL past the end. */
+const sim_key_t *sim_key_at(size_t number);
+
+enum { SIM_KEY_ROW_BYTES = 256 };
+
+/** The key as a row of the table in maps/README.md: key, default, range, unit, meaning. */
+void sim_key_row(const sim_key_t *key, char row[SIM_KEY_ROW_BYTES]);
+
+/** Sets one member from text, by its `group.name`. A refusal says what was expected and leaves
+ *  the settings as they were. */
+bool sim_settings_set(sim_settings_t *settings, const char *key, const char *value,
+                      sim_error_t *error);
+
+#endif
