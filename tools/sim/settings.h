@@ -57,7 +57,7 @@
     KEY(REAL, run_strike_rad, 0.40, 0.0, 1.0, "rad", "largest pitch toe up, running")              \
     KEY(REAL, flat_roll_rad, 0.085, 0.0, 0.3, "rad",                                               \
         "pitch rolled over in stance; 0 = a flat foot")                                            \
-    KEY(REAL, clearance_m, 0.04, 0.0, 0.3, "m", "lift added in the middle of the swing")           \
+    KEY(REAL, clearance_m, 0.04, 0.0, 0.3, "m", "lift of the swinging foot")                       \
     KEY(REAL, run_clearance_m, 0.06, 0.0, 0.5, "m", "the same, running")                           \
     KEY(REAL, side_swing_m, 0.03, -0.2, 0.2, "m", "sideways bow of the swing, outwards")           \
     KEY(REAL, swing_roll_rad, 0.22, 0.0, 0.6, "rad", "roll of the foot in swing")                  \
