@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: MIT */
+#include "sim/write.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "near.h"
+#include "sim/algebra.h"
+#include "suite.h"
+
+#define OUT SIM_OUTPUT_DIR "/walks"
+
+enum { MOST_BYTES = 4000000 };
+
+/* Writes a scenario file and simulates it into a folder of its own. */
+static int simulate(const char *name, const char *text, uint64_t seed, sim_report_t *report,
+                    char error[512])
+{
+    char path[600], folder[600];
+    snprintf(path, sizeof path, "%s_%s.scenario", OUT, name);
+    snprintf(folder, sizeof folder, "%s_%s", OUT, name);
+    FILE *stream = fopen(path, "w");
+    ck_assert_ptr_nonnull(stream);
+    fputs(text, stream);
+    fclose(stream);
+    return sim_write_scenario(path, folder, seed, report, error, 512);
+}
+
+static char *text_of(const char *name, const char *file)
+{
+    char path[600];
+    snprintf(path, sizeof path, "%s_%s/%s", OUT, name, file);
+    FILE *stream = fopen(path, "r");
+    ck_assert_msg(stream != NULL, "%s", path);
+    char *text = malloc(MOST_BYTES);
+    ck_assert_ptr_nonnull(text);
+    size_t size = fread(text, 1, MOST_BYTES - 1, stream);
+    ck_assert_uint_lt(size, MOST_BYTES - 1);
+    text[size] = '\0';
+    fclose(stream);
+    return text;
+}
+
+static size_t lines_of(const char *text, const char *begin)
+{
+    size_t count = strncmp(text, begin, strlen(begin)) == 0 ? 1u : 0u;
+    for (const char *at = strchr(text, '\n'); at != NULL; at = strchr(at + 1, '\n')) {
+        count += strncmp(at + 1, begin, strlen(begin)) == 0 && at[1] != '\0' ? 1u : 0u;
+    }
+    return count;
+}
+
+#define WALK "start,2,3,0.5\nwalk,8,3,1.2\n"
+
+START_TEST(log_and_truth_have_the_agreed_form)
+{
+    char error[512];
+    sim_report_t report;
+    ck_assert_msg(simulate("form", WALK, 1, &report, error) == 0, "%s", error);
+    char *log = text_of("form", "log.csv"), *truth = text_of("form", "truth.csv");
+    double x, y, heading, t, v[6], p[3];
+    ck_assert_int_eq(sscanf(log, "start,0,%lf,%lf,%lf\n", &x, &y, &heading), 3);
+    const char *imu = strchr(log, '\n') + 1;
+    ck_assert_int_eq(sscanf(imu, "imu,%lf,%lf,%lf,%lf,%lf,%lf,%lf\n", &t, &v[0], &v[1], &v[2],
+                            &v[3], &v[4], &v[5]),
+                     7);
+    ASSERT_NEAR(t, 0.0, 0.0, "s");
+    ASSERT_NEAR(sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]), 9.81, 0.5, "m/s^2");
+    ck_assert(strncmp(truth, "t,x,y,z\n", 8) == 0);
+    ck_assert_int_eq(sscanf(truth + 8, "%lf,%lf,%lf,%lf\n", &t, &p[0], &p[1], &p[2]), 4);
+    ASSERT_NEAR(p[0], x, 1e-3, "m"); /* the start is where the truth begins */
+    ASSERT_NEAR(p[1], y, 1e-3, "m");
+    ASSERT_NEAR(p[2], 0.08, 1e-3, "m");
+    ASSERT_NEAR(heading, 0.0, 0.05, "rad");
+    ck_assert_uint_eq(lines_of(log, "imu,"), report.samples);
+    ck_assert_uint_eq(lines_of(log, ""), report.samples + 1u);
+    ASSERT_NEAR((double)lines_of(truth, "") - 1.0, report.duration_s * 50.0, 1.0, "rows");
+    free(log);
+    free(truth);
+}
+END_TEST
+
+START_TEST(the_report_tells_what_was_simulated)
+{
+    char error[512];
+    sim_report_t report;
+    ck_assert_int_eq(simulate("report",
+                              WALK "imu.dropouts_hz = 1\nimu.dropout_s = 0.1\n"
+                                   "imu.accel_range_mps2 = 20\n",
+                              1, &report, error),
+                     0);
+    char *log = text_of("report", "log.csv");
+    ASSERT_NEAR(report.distance_m, 6.0, 1e-9, "m");
+    ASSERT_NEAR((double)report.samples, 200.0 * report.duration_s, 1.0, "samples");
+    ck_assert_uint_eq(lines_of(log, "imu,"), report.samples - report.lost);
+    ck_assert_uint_gt(report.lost, 10u);
+    ck_assert_uint_gt(report.clipped, 10u);
+    ck_assert_uint_ge(report.steps, 8u);
+    ck_assert_uint_le(report.steps, 12u);
+    free(log);
+}
+END_TEST
+
+START_TEST(equal_seeds_write_equal_files)
+{
+    char error[512];
+    ck_assert_int_eq(simulate("seed_a", WALK, 7, NULL, error), 0);
+    ck_assert_int_eq(simulate("seed_b", WALK, 7, NULL, error), 0);
+    ck_assert_int_eq(simulate("seed_c", WALK, 8, NULL, error), 0);
+    static const char *const files[] = {"log.csv", "truth.csv"};
+    for (int i = 0; i < 2; i++) {
+        char *a = text_of("seed_a", files[i]), *b = text_of("seed_b", files[i]);
+        char *c = text_of("seed_c", files[i]);
+        ck_assert_int_eq(strcmp(a, b), 0);
+        ck_assert_int_ne(strcmp(a, c), 0);
+        free(a);
+        free(b);
+        free(c);
+    }
+}
+END_TEST
+
+START_TEST(truth_comes_at_its_own_rate)
+{
+    static const double rates[] = {0.0, 1.0, 100.0, 1000.0}; /* never more than one a sample */
+    static const double rows[] = {200.0, 1.0, 100.0, 200.0};
+    for (int i = 0; i < 4; i++) {
+        char error[512], text[100];
+        sim_report_t report;
+        snprintf(text, sizeof text, "%slog.truth_hz = %g\n", WALK, rates[i]);
+        ck_assert_int_eq(simulate("rate", text, 1, &report, error), 0);
+        char *truth = text_of("rate", "truth.csv");
+        double count = (double)lines_of(truth, "") - 1.0;
+        ASSERT_NEAR(count, report.duration_s * rows[i], 1.01, "rows");
+        free(truth);
+    }
+}
+END_TEST
+
+START_TEST(the_start_can_be_wrong_or_left_out)
+{
+    char error[512];
+    ck_assert_int_eq(simulate("nostart", WALK "log.start = none\n", 1, NULL, error), 0);
+    char *log = text_of("nostart", "log.csv");
+    ck_assert_uint_eq(lines_of(log, "start"), 0u);
+    free(log);
+    double sum = 0.0, turn = 0.0;
+    int n = 60;
+    for (int seed = 1; seed <= n; seed++) {
+        double x, y, heading, sigma_m, sigma_rad;
+        ck_assert_int_eq(simulate("wrong",
+                                  "start,2,3,0\nwalk,4,3,1.2\nlog.start_sigma_m = 0.5\n"
+                                  "log.start_sigma_rad = 0.2\nwalk.lead_in_s = 0\n",
+                                  (uint64_t)seed, NULL, error),
+                         0);
+        log = text_of("wrong", "log.csv");
+        ck_assert_int_eq(
+            sscanf(log, "start,0,%lf,%lf,%lf,%lf,%lf\n", &x, &y, &heading, &sigma_m, &sigma_rad),
+            5);
+        ASSERT_NEAR(sigma_m, 0.5, 1e-9, "m");
+        ASSERT_NEAR(sigma_rad, 0.2, 1e-9, "rad");
+        sum += (pow(x - 2.06, 2.0) + pow(y - 2.934, 2.0)) / (2.0 * n);
+        turn += heading * heading / n;
+        free(log);
+    }
+    ASSERT_NEAR(sqrt(sum), 0.5, 0.13, "m");
+    ASSERT_NEAR(sqrt(turn), 0.2, 0.075, "rad");
+}
+END_TEST
+
+static const struct {
+    const char *text, *says;
+} refusals[] = {
+    {"start,0,0,0\nwalk,9\n", ".scenario:2: too few fields, expected walk,x,y,speed"},
+    {"start,0,0,0\nimu.rate = 5\n", ".scenario:2: no setting is called 'imu.rate'"},
+    {"start,0,0,0\n\n\nwalk,0.1,0,1\n", ".scenario:4: the waypoint is 0.10 m from where"},
+    {"", ".scenario:1: the scenario has no start"},
+};
+
+START_TEST(bad_scenarios_are_refused_with_file_and_line)
+{
+    char error[512];
+    ck_assert_int_eq(simulate("bad", refusals[_i].text, 1, NULL, error), -1);
+    ck_assert_msg(strstr(error, refusals[_i].says) != NULL, "says: %s", error);
+    ck_assert_ptr_nonnull(strstr(error, OUT));
+}
+END_TEST
+
+START_TEST(files_that_cannot_be_opened_are_told)
+{
+    char error[512];
+    int done = sim_write_scenario(OUT "_nowhere/scenario", OUT "_x", 1, NULL, error, sizeof error);
+    ck_assert_int_eq(done, -1);
+    ck_assert_ptr_nonnull(strstr(error, "_nowhere/scenario: cannot be opened"));
+    ck_assert_int_eq(simulate("file", WALK, 1, NULL, error), 0);
+    done = sim_write_scenario(OUT "_file.scenario", OUT "_file.scenario", 1, NULL, error,
+                              sizeof error);
+    ck_assert_int_eq(done, -1);
+    ck_assert_ptr_nonnull(strstr(error, "cannot be"));
+    done = sim_write_scenario(OUT "_file.scenario", OUT "_no/such/folder", 1, NULL, error,
+                              sizeof error);
+    ck_assert_int_eq(done, -1);
+    ck_assert_ptr_nonnull(strstr(error, "_no/such/folder cannot be made"));
+    ck_assert_int_eq(sim_write_scenario("", "", 1, NULL, NULL, 0), -1);
+}
+END_TEST
+
+START_TEST(long_errors_fit_the_room)
+{
+    char error[20];
+    memset(error, 'x', sizeof error);
+    ck_assert_int_eq(sim_write_scenario(OUT "_nowhere", OUT "_x", 1, NULL, error, 10), -1);
+    ck_assert_uint_eq(strlen(error), 9u);
+    ck_assert_int_eq(error[10], 'x');
+}
+END_TEST
+
+START_TEST(the_demo_takes_a_minute_and_ends_where_it_began)
+{
+    char error[512];
+    sim_report_t report;
+    int done = sim_write_scenario(SIM_SOURCE_DIR "/maps/demo/scenario", OUT "_demo", 1, &report,
+                                  error, sizeof error);
+    ck_assert_msg(done == 0, "%s", error);
+    ASSERT_NEAR(report.duration_s, 65.0, 8.0, "s");
+    ASSERT_NEAR(report.distance_m, 65.0, 5.0, "m");
+    char *truth = text_of("demo", "truth.csv");
+    double t, first[3], last[3];
+    ck_assert_int_eq(sscanf(truth + 8, "%lf,%lf,%lf,%lf", &t, &first[0], &first[1], &first[2]), 4);
+    char *line = strrchr(truth, '\n');
+    *line = '\0';
+    line = strrchr(truth, '\n') + 1;
+    ck_assert_int_eq(sscanf(line, "%lf,%lf,%lf,%lf", &t, &last[0], &last[1], &last[2]), 4);
+    ASSERT_NEAR(t, report.duration_s, 0.021, "s");
+    for (int i = 0; i < 3; i++) {
+        ASSERT_NEAR(last[i], first[i], 1e-3, "m");
+    }
+    free(truth);
+}
+END_TEST
+
+Suite *insole_suite(void)
+{
+    Suite *suite = suite_create("sim/write");
+    suite_add(suite, "form", log_and_truth_have_the_agreed_form);
+    suite_add(suite, "report", the_report_tells_what_was_simulated);
+    suite_add(suite, "seeds", equal_seeds_write_equal_files);
+    suite_add(suite, "truth rate", truth_comes_at_its_own_rate);
+    suite_add(suite, "start", the_start_can_be_wrong_or_left_out);
+    suite_add_loop(suite, "refusals", bad_scenarios_are_refused_with_file_and_line,
+                   (int)(sizeof refusals / sizeof refusals[0]));
+    suite_add(suite, "no file", files_that_cannot_be_opened_are_told);
+    suite_add(suite, "room", long_errors_fit_the_room);
+    suite_add(suite, "demo", the_demo_takes_a_minute_and_ends_where_it_began);
+    return suite;
+}

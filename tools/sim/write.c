@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L /* mkdir */
+
+#include "sim/write.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "sim/walk.h"
+
+enum { PATH_BYTES = 1024 };
+
+/* The files of one walk. */
+typedef struct {
+    FILE *log, *truth;
+    double truth_hz;
+    long truth_rows;
+} output_t;
+
+static bool read_scenario(const char *path, sim_scenario_t *scenario, sim_error_t *error)
+{
+    FILE *stream = fopen(path, "r");
+    if (stream == NULL) {
+        return sim_fail(error, "cannot be opened: %s", strerror(errno));
+    }
+    bool done = sim_scenario_read(stream, scenario, error);
+    fclose(stream);
+    return done;
+}
+
+static FILE *create(const char *folder, const char *name, sim_error_t *error)
+{
+    char path[PATH_BYTES];
+    int length = snprintf(path, sizeof path, "%s/%s", folder, name);
+    if (length < 0 || (size_t)length >= sizeof path) {
+        sim_fail(error, "the name of the output folder is too long");
+        return NULL;
+    }
+    FILE *stream = fopen(path, "w");
+    if (stream == NULL) {
+        sim_fail(error, "%.300s cannot be written: %s", path, strerror(errno));
+    }
+    return stream;
+}
+
+static bool open_output(output_t *output, const char *folder, sim_error_t *error)
+{
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
+        return sim_fail(error, "%.300s cannot be made: %s", folder, strerror(errno));
+    }
+    output->log = create(folder, "log.csv", error);
+    if (output->log == NULL) {
+        return false;
+    }
+    output->truth = create(folder, "truth.csv", error);
+    return output->truth != NULL;
+}
+
+/* False when something did not reach a file. */
+static bool close_file(FILE *stream)
+{
+    if (stream == NULL) {
+        return false;
+    }
+    bool good = ferror(stream) == 0;
+    return fclose(stream) == 0 && good;
+}
+
+static bool close_output(output_t *output)
+{
+    bool log = close_file(output->log), truth = close_file(output->truth);
+    return log && truth;
+}
+
+static double told(insole_rng_t *rng, double value, double sigma)
+{
+    return value + sigma * (double)insole_rng_normal(rng);
+}
+
+static void write_start(FILE *log, const sim_walk_t *walk, const sim_log_settings_t *settings,
+                        uint64_t seed)
+{
+    insole_rng_t rng;
+    sim_seed(&rng, seed, SIM_SEED_LOG);
+    sim_body_t body = sim_walk_body(walk);
+    sim_vec3_t at = body.pose(body.state, 0.0).position_m;
+    double x = told(&rng, at.x, settings->start_sigma_m);
+    double y = told(&rng, at.y, settings->start_sigma_m);
+    double heading;
+    fprintf(log, "start,0,%.4f,%.4f", x, y);
+    if (sim_walk_start_heading(walk, &heading)) {
+        double wrong = told(&rng, heading, settings->start_sigma_rad);
+        fprintf(log, ",%.5f", sim_wrap_pi(wrong));
+        if (settings->start_sigma_m > 0.0 && settings->start_sigma_rad > 0.0) {
+            fprintf(log, ",%g,%g", settings->start_sigma_m, settings->start_sigma_rad);
+        }
+    }
+    fputc('\n', log);
+}
+
+static void write_imu(FILE *log, const insole_imu_t *imu)
+{
+    insole_vec3_t f = imu->accel_mps2, w = imu->gyro_radps;
+    fprintf(log, "imu,%" PRIu64 ".%06" PRIu64 ",%.6f,%.6f,%.6f,%.7f,%.7f,%.7f\n",
+            imu->t_us / 1000000u, imu->t_us % 1000000u, (double)f.x, (double)f.y, (double)f.z,
+            (double)w.x, (double)w.y, (double)w.z);
+}
+
+static void write_truth(output_t *output, const sim_sample_t *sample)
+{
+    double t = sample->truth.t_s, due = 0.0;
+    if (output->truth_hz > 0.0) {
+        due = (double)output->truth_rows / output->truth_hz;
+    }
+    if (t > due - 1e-9) {
+        sim_vec3_t p = sample->truth.pose.position_m;
+        fprintf(output->truth, "%.6f,%.5f,%.5f,%.5f\n", t, p.x, p.y, p.z);
+        output->truth_rows++;
+    }
+}
+
+static void write_samples(output_t *output, sim_walk_t *walk)
+{
+    sim_sample_t sample;
+    fputs("t,x,y,z\n", output->truth);
+    while (sim_walk_next(walk, &sample)) {
+        if (sample.given) {
+            write_imu(output->log, &sample.imu);
+        }
+        write_truth(output, &sample);
+    }
+}
+
+static void fill_report(sim_report_t *report, const sim_walk_t *walk)
+{
+    const sim_imu_t *imu = sim_walk_imu(walk);
+    report->duration_s = sim_walk_duration(walk);
+    report->distance_m = sim_walk_distance(walk);
+    report->steps = (uint32_t)sim_walk_steps(walk)->steps.count - 2u;
+    report->samples = imu->given + imu->lost;
+    report->lost = imu->lost;
+    report->clipped = imu->clipped;
+}
+
+static bool write_walk(sim_walk_t *walk, const sim_log_settings_t *settings, const char *folder,
+                       uint64_t seed, sim_error_t *error)
+{
+    output_t output = {.truth_hz = settings->truth_hz};
+    if (!open_output(&output, folder, error)) {
+        close_output(&output);
+        return false;
+    }
+    if (settings->start == SIM_START_KNOWN) {
+        write_start(output.log, walk, settings, seed);
+    }
+    write_samples(&output, walk);
+    return close_output(&output) || sim_fail(error, "%.300s cannot be written to", folder);
+}
+
+static bool simulate(const char *path, const char *folder, uint64_t seed, sim_report_t *report,
+                     sim_error_t *error)
+{
+    sim_scenario_t scenario = {.settings = sim_settings_defaults};
+    if (!read_scenario(path, &scenario, error)) {
+        return false;
+    }
+    bool done = false;
+    sim_walk_t *walk = sim_walk_open(&scenario, seed, error);
+    if (walk != NULL) {
+        done = write_walk(walk, &scenario.settings.log, folder, seed, error);
+        fill_report(report, walk);
+        sim_walk_close(walk);
+    }
+    sim_scenario_free(&scenario);
+    return done;
+}
+
+int sim_write_scenario(const char *scenario_path, const char *out_dir, uint64_t seed,
+                       sim_report_t *report, char *error, size_t error_size)
+{
+    sim_error_t reason;
+    sim_report_t unused;
+    if (simulate(scenario_path, out_dir, seed, report == NULL ? &unused : report, &reason)) {
+        return 0;
+    }
+    if (error == NULL) {
+        return -1;
+    }
+    if (reason.line > 0) {
+        snprintf(error, error_size, "%s:%d: %s", scenario_path, reason.line, reason.text);
+    } else {
+        snprintf(error, error_size, "%s: %s", scenario_path, reason.text);
+    }
+    return -1;
+}

@@ -1,0 +1,32 @@
+/** @file write.h  From a scenario file to the files of a simulated walk.
+ *
+ *  Writes into a folder, which is made if it is not there: `log.csv` with a `start` record and one
+ *  `imu` record per sample, and `truth.csv` with the header `t,x,y,z`: the true position of the
+ *  sensor.
+ *
+ *      char error[512];
+ *      if (sim_write_scenario("maps/demo/scenario", "out", 1, &report, error, sizeof error) != 0)
+ *          fprintf(stderr, "%s\n", error);
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_SIM_WRITE_H
+#define INSOLE_SIM_WRITE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct {
+    double duration_s;
+    double distance_m; /**< along the path, level */
+    uint32_t steps;    /**< of both feet */
+    uint32_t samples, lost, clipped;
+} sim_report_t;
+
+/** @param report  may be NULL
+ *  @param error   gets `file:line: what was wrong and what was expected`; may be NULL
+ *  @return 0, or -1 when nothing or not everything could be written */
+int sim_write_scenario(const char *scenario_path, const char *out_dir, uint64_t seed,
+                       sim_report_t *report, char *error, size_t error_size);
+
+#endif
