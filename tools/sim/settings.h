@@ -64,17 +64,17 @@
     KEY(REAL, swing_yaw_rad, 0.20, 0.0, 0.6, "rad", "yaw of the foot in swing")                    \
     KEY(REAL, wobble_rad, 0.0015, 0.0, 0.05, "rad", "trembling of a walking foot, rms; 0 = off")   \
     KEY(REAL, still_rad, 0.00005, 0.0, 0.01, "rad", "trembling of a standing foot, rms; 0 = off")  \
-    KEY(REAL, settle_mps, 0.7, 0.0, 3.0, "m/s",                                                    \
+    KEY(REAL, settle_mps, 0.7, 0.0, 1.5, "m/s",                                                    \
         "speed of a walking foot against the ground when it strikes; 0 = off")                     \
-    KEY(REAL, run_settle_mps, 1.0, 0.0, 5.0, "m/s", "the same, running")                           \
-    KEY(REAL, settle_s, 0.022, 0.005, 0.05, "s", "time constant of the settling after it")         \
+    KEY(REAL, run_settle_mps, 1.0, 0.0, 2.0, "m/s", "the same, running")                           \
+    KEY(REAL, settle_s, 0.022, 0.01, 0.05, "s", "time constant of the settling after it")          \
     KEY(REAL, shock_mps2, 70.0, 0.0, 300.0, "m/s^2",                                               \
         "ringing after heel strike, walking; 0 = off")                                             \
     KEY(REAL, run_shock_mps2, 70.0, 0.0, 500.0, "m/s^2", "the same, running")                      \
     KEY(REAL, shock_radps, 3.0, 0.0, 30.0, "rad/s", "ringing of the pitch rate, walking; 0 = off") \
     KEY(REAL, shock_hz, 9.0, 3.0, 50.0, "Hz", "its frequency; its double rings as well")           \
     KEY(REAL, shock_decay_s, 0.04, 0.005, 0.1, "s", "its time constant")                           \
-    KEY(REAL, spread, 0.08, 0.0, 0.5, "1", "variation of all these from stride to stride, 1-sigma")
+    KEY(REAL, spread, 0.08, 0.0, 0.3, "1", "variation of all these from stride to stride, 1-sigma")
 
 /** Where the sensor sits on the foot, and how it is turned: foot from sensor is
  *  Rz(yaw) Ry(pitch) Rx(roll); foot axes are forward, left, up. */

@@ -25,9 +25,10 @@ typedef struct {
     double length_m, speed_mps;
 } pace_t;
 
+/* Never further than three sigmas: a step keeps its direction. */
 static double normal(walker_t *w, double sigma)
 {
-    return sigma * (double)insole_rng_normal(&w->rng);
+    return sigma * fmax(-3.0, fmin(3.0, (double)insole_rng_normal(&w->rng)));
 }
 
 /* Where the foot of that side belongs when the body is at `body`. */
@@ -66,7 +67,8 @@ static double swing_time(const walker_t *w, sim_gait_kind_t kind, double speed_m
     double wanted = 2.0 * (1.0 - stance_share(w, kind, speed_mps)) * pace_s;
     size_t count = w->steps->steps.count;
     const sim_step_t *same_foot = sim_list_at(&w->steps->steps, count - 2);
-    return fmin(wanted, strike_s - same_foot->strike_s - shortest_stance_s);
+    double room = strike_s - same_foot->strike_s;
+    return fmin(wanted, fmax(0.4 * room, room - shortest_stance_s));
 }
 
 static bool add_step(walker_t *w, sim_gait_kind_t kind, const sim_place_t *place, double pace_s,

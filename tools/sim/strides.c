@@ -204,7 +204,7 @@ static void fit_stance(sim_stride_t *stride, sim_stride_t *next)
     sim_transition_t *land = &stride->pitch[SIM_LAND];
     begin_not_before(&next->pitch[SIM_RISE], stride->strike_s);
     begin_not_before(&next->pitch[SIM_PUSH], stride->strike_s);
-    land->length_s = fmin(land->length_s, next->lift_s - 0.05 - land->begin_s);
+    land->length_s = fmin(land->length_s, 0.9 * (next->lift_s - land->begin_s));
 }
 
 static void join_strides(maker_t *m)
