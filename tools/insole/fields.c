@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+#include "fields.h"
+
+#include <stddef.h>
+#include <string.h>
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t';
+}
+
+char *fields_trim(char *text)
+{
+    while (is_blank(*text)) {
+        text++;
+    }
+    size_t length = strlen(text);
+    while (length > 0u && is_blank(text[length - 1u])) {
+        text[--length] = '\0';
+    }
+    return text;
+}
+
+void fields_split(fields_t *fields, char *line)
+{
+    fields->count = 0;
+    if (fields_is_blank_line(line)) {
+        return;
+    }
+    for (char *comma; line != NULL; line = comma) {
+        if (fields->count == FIELDS_MAX) {
+            fields->count++;
+            return;
+        }
+        comma = strchr(line, ',');
+        if (comma != NULL) {
+            *comma++ = '\0';
+        }
+        fields->at[fields->count++] = fields_trim(line);
+    }
+}
+
+void fields_drop_comment(fields_t *fields, int id_field)
+{
+    for (int i = 0; i < fields->count && i < FIELDS_MAX; i++) {
+        char *sign = i == id_field ? NULL : strchr(fields->at[i], '#');
+        if (sign != NULL) {
+            *sign = '\0';
+            fields->at[i] = fields_trim(fields->at[i]);
+            fields->count = i + 1;
+        }
+    }
+}
+
+bool fields_is_blank_line(const char *line)
+{
+    while (is_blank(*line)) {
+        line++;
+    }
+    return *line == '\0' || *line == '#';
+}
