@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: MIT */
+#include "config_keys.h"
+
+#include <string.h>
+
+#include "nearest.h"
+#include "number.h"
+
+#define ROW(section, member, kind, name, value, low, high, unit, text)                             \
+    {#section "." #name,                                                                           \
+     CONFIG_##kind,                                                                                \
+     offsetof(settings_t, member.name),                                                            \
+     value,                                                                                        \
+     low,                                                                                          \
+     high,                                                                                         \
+     unit,                                                                                         \
+     text},
+
+#define SENSOR_ROW(kind, name, ...)       ROW(sensor, sensor, kind, name, __VA_ARGS__)
+#define FOOT_TRACKER_ROW(kind, name, ...) ROW(foot_tracker, foot, kind, name, __VA_ARGS__)
+#define SCREEN_ROW(kind, name, ...)       ROW(screen, foot.screen, kind, name, __VA_ARGS__)
+#define STILL_BIAS_ROW(kind, name, ...)   ROW(still_bias, foot.still_bias, kind, name, __VA_ARGS__)
+#define ZERO_VELOCITY_ROW(kind, name, ...)                                                         \
+    ROW(zero_velocity, foot.zero_velocity, kind, name, __VA_ARGS__)
+#define ZUPT_EKF_ROW(kind, name, ...) ROW(zupt_ekf, foot.zupt_ekf, kind, name, __VA_ARGS__)
+#define STRIDE_ROW(kind, name, ...)   ROW(stride, foot.stride, kind, name, __VA_ARGS__)
+
+/* clang-format off */
+static const config_key_t keys[] = {
+    SENSOR_KEYS(SENSOR_ROW)
+    INSOLE_FOOT_TRACKER_KEYS(FOOT_TRACKER_ROW)
+    INSOLE_SCREEN_KEYS(SCREEN_ROW)
+    INSOLE_STILL_BIAS_KEYS(STILL_BIAS_ROW)
+    INSOLE_ZERO_VELOCITY_KEYS(ZERO_VELOCITY_ROW)
+    INSOLE_ZUPT_EKF_KEYS(ZUPT_EKF_ROW)
+    INSOLE_STRIDE_KEYS(STRIDE_ROW)
+};
+/* clang-format on */
+
+enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
+
+const config_key_t *config_keys(size_t *count)
+{
+    *count = KEY_COUNT;
+    return keys;
+}
+
+static const config_key_t *find_key(const char *name)
+{
+    for (size_t i = 0u; i < KEY_COUNT; i++) {
+        if (strcmp(keys[i].name, name) == 0) {
+            return &keys[i];
+        }
+    }
+    return NULL;
+}
+
+/* A user who leaves out the section means the key of that name. */
+static bool refuse_key(const char *name, failure_t *failure)
+{
+    nearest_t nearest;
+    nearest_begin(&nearest, name);
+    for (size_t i = 0u; i < KEY_COUNT; i++) {
+        nearest_offer(&nearest, keys[i].name);
+    }
+    failure_input(failure, "unknown key \"%.60s\": ", name);
+    return nearest.best != NULL ? failure_add(failure, "did you mean %s?", nearest.best)
+                                : failure_add(failure, "`insole config` lists all of them");
+}
+
+/* Number of a name in a list separated by |; -1: it is not in it. */
+static int find_choice(const char *names, const char *name)
+{
+    size_t length = strlen(name);
+    for (int i = 0; names != NULL; i++) {
+        if (strncmp(names, name, length) == 0 && (names[length] == '|' || names[length] == '\0')) {
+            return length > 0u ? i : -1;
+        }
+        names = strchr(names, '|');
+        names = names != NULL ? names + 1 : NULL;
+    }
+    return -1;
+}
+
+static bool parse_value(const config_key_t *key, const char *text, double *value,
+                        failure_t *failure)
+{
+    int64_t whole = 0;
+    bool is_good = false;
+    if (key->kind == CONFIG_CHOICE) {
+        *value = find_choice(key->unit, text);
+        is_good = *value >= 0.0;
+    } else if (key->kind == CONFIG_INT) {
+        is_good = number_parse_whole(text, INT32_MIN, INT32_MAX, &whole);
+        *value = (double)whole;
+    } else {
+        is_good = number_parse(text, value);
+    }
+    if (!is_good) {
+        return failure_input(failure, "%s: \"%.40s\" is not %s%s", key->name, text,
+                             key->kind == CONFIG_REAL  ? "a number"
+                             : key->kind == CONFIG_INT ? "a whole number"
+                                                       : "one of ",
+                             key->kind == CONFIG_CHOICE ? key->unit : "");
+    }
+    return true;
+}
+
+static bool check_range(const config_key_t *key, double value, failure_t *failure)
+{
+    char low[NUMBER_ROOM], high[NUMBER_ROOM], told[NUMBER_ROOM];
+    if (value >= key->low && value <= key->high) {
+        return true;
+    }
+    return failure_input(failure, "%s: %s is out of range: expected %s .. %s%s%s", key->name,
+                         number_short(told, value), number_short(low, key->low),
+                         number_short(high, key->high), key->unit[0] != '\0' ? " " : "", key->unit);
+}
+
+bool config_set(settings_t *settings, const char *name, const char *value, failure_t *failure)
+{
+    const config_key_t *key = find_key(name);
+    double number;
+    if (key == NULL) {
+        return refuse_key(name, failure);
+    }
+    if (!parse_value(key, value, &number, failure) || !check_range(key, number, failure)) {
+        return false;
+    }
+    char *target = (char *)settings + key->offset;
+    insole_real_t real = (insole_real_t)number;
+    int32_t whole = (int32_t)number;
+    if (key->kind == CONFIG_REAL) {
+        memcpy(target, &real, sizeof real);
+    } else {
+        memcpy(target, &whole, sizeof whole);
+    }
+    return true;
+}
+
+double config_value(const settings_t *settings, const config_key_t *key)
+{
+    const char *source = (const char *)settings + key->offset;
+    insole_real_t real;
+    int32_t whole;
+    if (key->kind == CONFIG_REAL) {
+        memcpy(&real, source, sizeof real);
+        return (double)real;
+    }
+    memcpy(&whole, source, sizeof whole);
+    return (double)whole;
+}
+
+/* ---- printing --------------------------------------------------------------------------- */
+
+static void copy_choice(char buffer[CONFIG_CHOICE_ROOM], const char *names, int32_t value)
+{
+    for (; value > 0; value--) {
+        names = strchr(names, '|') + 1;
+    }
+    snprintf(buffer, CONFIG_CHOICE_ROOM, "%.*s", (int)strcspn(names, "|"), names);
+}
+
+const char *config_choice(char buffer[CONFIG_CHOICE_ROOM], const char *key, int32_t value)
+{
+    copy_choice(buffer, find_key(key)->unit, value);
+    return buffer;
+}
+
+static void print_value(FILE *file, const config_key_t *key, double value)
+{
+    char number[NUMBER_ROOM], name[CONFIG_CHOICE_ROOM];
+    if (key->kind == CONFIG_CHOICE) {
+        copy_choice(name, key->unit, (int32_t)value);
+        fputs(name, file);
+    } else {
+        fputs(number_short(number, value), file);
+    }
+}
+
+static void print_range(FILE *file, const config_key_t *key, const char *bar)
+{
+    char low[NUMBER_ROOM], high[NUMBER_ROOM];
+    if (key->kind != CONFIG_CHOICE) {
+        fprintf(file, "%s .. %s", number_short(low, key->low), number_short(high, key->high));
+        return;
+    }
+    for (const char *name = key->unit; *name != '\0'; name++) {
+        if (*name == '|') {
+            fputs(bar, file);
+        } else {
+            putc(*name, file);
+        }
+    }
+}
+
+static const char *unit_of(const config_key_t *key)
+{
+    return key->kind == CONFIG_CHOICE ? "" : key->unit;
+}
+
+void config_print(FILE *file, const settings_t *settings)
+{
+    for (size_t i = 0u; i < KEY_COUNT; i++) {
+        size_t section = strcspn(keys[i].name, ".");
+        if (i > 0u && strncmp(keys[i].name, keys[i - 1u].name, section + 1u) != 0) {
+            putc('\n', file);
+        }
+        fprintf(file, "# %s [%s%s", keys[i].text, unit_of(&keys[i]),
+                unit_of(&keys[i])[0] != '\0' ? "; " : "");
+        print_range(file, &keys[i], "|");
+        fprintf(file, "]\n%s = ", keys[i].name);
+        print_value(file, &keys[i], config_value(settings, &keys[i]));
+        putc('\n', file);
+    }
+}
+
+void config_print_table(FILE *file)
+{
+    fputs("| key | default | range | unit | meaning |\n|---|---|---|---|---|\n", file);
+    for (size_t i = 0u; i < KEY_COUNT; i++) {
+        fprintf(file, "| `%s` | ", keys[i].name);
+        print_value(file, &keys[i], keys[i].value);
+        fputs(" | ", file);
+        print_range(file, &keys[i], ", ");
+        fprintf(file, " | %s | %s |\n", unit_of(&keys[i]), keys[i].text);
+    }
+}

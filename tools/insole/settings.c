@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+#include "settings.h"
+
+static const sensor_config_t sensor_defaults = {SENSOR_KEYS(INSOLE_CONFIG_DEFAULT)};
+
+void settings_init(settings_t *settings)
+{
+    settings->sensor = sensor_defaults;
+    settings->foot = insole_foot_tracker_defaults;
+}
+
+void settings_correct(const sensor_config_t *sensor, insole_imu_t *imu)
+{
+    insole_vec3_t gyro_bias = insole_vec3(sensor->gyro_bias_x_radps, sensor->gyro_bias_y_radps,
+                                          sensor->gyro_bias_z_radps);
+    insole_vec3_t accel_bias = insole_vec3(sensor->accel_bias_x_mps2, sensor->accel_bias_y_mps2,
+                                           sensor->accel_bias_z_mps2);
+    imu->gyro_radps =
+        insole_vec3_scale(insole_vec3_sub(imu->gyro_radps, gyro_bias), sensor->gyro_scale);
+    imu->accel_mps2 = insole_vec3_sub(imu->accel_mps2, accel_bias);
+}

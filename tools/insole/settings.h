@@ -1,0 +1,40 @@
+/** @file settings.h  Everything that can be set by `--set` and `--config`.
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_HOST_SETTINGS_H
+#define INSOLE_HOST_SETTINGS_H
+
+#include "insole/track/foot_tracker.h"
+
+/* clang-format off */
+/** What the program does to the readings of a sensor before the library sees them; firmware does
+ *  the same where it reads the sensor. */
+#define SENSOR_KEYS(KEY)                                                                          \
+    KEY(REAL, gyro_scale, 1.0, 0.8, 1.25, "",                                                     \
+        "turn rates are multiplied by it, from calibrate gyro-scale; 1 = as they are")            \
+    KEY(REAL, gyro_bias_x_radps, 0.0, -1.0, 1.0, "rad/s",                                         \
+        "turn rate about x at rest, from calibrate imu; subtracted first")                        \
+    KEY(REAL, gyro_bias_y_radps, 0.0, -1.0, 1.0, "rad/s", "the same about y")                     \
+    KEY(REAL, gyro_bias_z_radps, 0.0, -1.0, 1.0, "rad/s", "the same about z")                     \
+    KEY(REAL, accel_bias_x_mps2, 0.0, -5.0, 5.0, "m/s^2",                                         \
+        "bias of the accelerometer along x, from calibrate imu; subtracted")                      \
+    KEY(REAL, accel_bias_y_mps2, 0.0, -5.0, 5.0, "m/s^2", "the same along y")                     \
+    KEY(REAL, accel_bias_z_mps2, 0.0, -5.0, 5.0, "m/s^2", "the same along z")
+/* clang-format on */
+
+typedef struct {
+    SENSOR_KEYS(INSOLE_CONFIG_MEMBER)
+} sensor_config_t;
+
+typedef struct {
+    sensor_config_t sensor;
+    insole_foot_tracker_config_t foot;
+} settings_t;
+
+void settings_init(settings_t *settings);
+
+/** Corrects a reading as told by `sensor.*`. */
+void settings_correct(const sensor_config_t *sensor, insole_imu_t *imu);
+
+#endif
