@@ -1,0 +1,21 @@
+/** @file event_writer.h  Stances and strides as a CSV table.
+ *
+ *      event,begin,end,length,height,heading,turn,model_length
+ *
+ *  Seconds, metres, radians; of a stance only the times are told.
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_HOST_EVENT_WRITER_H
+#define INSOLE_HOST_EVENT_WRITER_H
+
+#include <stdio.h>
+
+#include "estimator.h"
+#include "failure.h"
+
+void event_writer_head(FILE *file);
+
+void event_writer_row(FILE *file, const foot_event_t *event);
+
+#endif
