@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+#include "notes.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "number.h"
+
+/* Below this the way between two readings is no longer a straight line. */
+static const double low_rate_hz = 80.0;
+
+/* A walking foot turns faster than this at least once in every stride. */
+static const double slow_foot_radps = 1.0;
+
+/* Gravity differs by less than this all over the Earth: the rest is the accelerometer's. */
+static const double gravity_spread_mps2 = 0.05;
+
+static void note(notes_t *notes, const char *format, ...)
+{
+    if (notes->count < NOTES_MAX) {
+        va_list values;
+        va_start(values, format);
+        vsnprintf(notes->text[notes->count++], NOTE_ROOM, format, values);
+        va_end(values);
+    }
+}
+
+double notes_rate_hz(const replay_facts_t *facts)
+{
+    double duration_s = 1e-6 * (double)(facts->last_us - facts->first_us);
+    return facts->fixes > 1u && duration_s > 0.0 ? (double)(facts->readings - 1u) / duration_s
+                                                 : 0.0;
+}
+
+double notes_still_share(const replay_facts_t *facts)
+{
+    return facts->foot.fixes > 0u ? (double)facts->foot.still / (double)facts->foot.fixes : 0.0;
+}
+
+static void note_stances(notes_t *notes, const replay_facts_t *facts)
+{
+    if (facts->foot.stances == 0u) {
+        note(notes, "the foot never stood still: is the sensor on the shoe, and firmly?");
+    } else if (facts->foot.aligned_moving) {
+        note(notes, "the log does not begin at rest: 2 s of standing still before the first step "
+                    "make the heading and the gyro bias good");
+    }
+    if (facts->strides == 0u && facts->foot.stances > 0u) {
+        note(notes, "no stride was seen: did anybody walk?");
+    }
+}
+
+static void note_rate(notes_t *notes, const replay_facts_t *facts)
+{
+    char rate[NUMBER_ROOM];
+    double rate_hz = notes_rate_hz(facts);
+    if (rate_hz > 0.0 && rate_hz < low_rate_hz) {
+        note(notes, "%s readings per second are few: 100 and more make the track better",
+             number_fixed(rate, rate_hz, 0));
+    }
+    if (facts->screen.gaps > 0u) {
+        note(notes, "readings are missing: %lu gap%s, carried over without them",
+             (unsigned long)facts->screen.gaps, facts->screen.gaps == 1u ? "" : "s");
+    }
+}
+
+static void note_gyro(notes_t *notes, const replay_facts_t *facts)
+{
+    if (facts->screen.clipped > 0u) {
+        note(notes,
+             "the gyroscope reached the end of its range in %lu readings: choose a larger "
+             "range, 2000 deg/s fits any foot",
+             (unsigned long)facts->screen.clipped);
+    }
+    if (facts->strides > 0u && facts->fastest_radps < slow_foot_radps) {
+        note(notes, "the gyroscope hardly turns while the foot walks: is its unit right "
+                    "(--gyro-unit)?");
+    }
+}
+
+static void note_gravity(notes_t *notes, const replay_facts_t *facts)
+{
+    char gravity[NUMBER_ROOM];
+    if (facts->rests > 0u && fabs(facts->gravity_mps2 - 9.807) > gravity_spread_mps2) {
+        note(notes,
+             "at rest the accelerometer reads %s m/s^2: `insole calibrate imu` tells its "
+             "bias",
+             number_fixed(gravity, facts->gravity_mps2, 3));
+    }
+}
+
+static void note_start(notes_t *notes, const replay_facts_t *facts)
+{
+    if (!facts->knows_place) {
+        note(notes, "no start is known: the track begins at (0, 0), and x is where the sensor's "
+                    "x axis pointed (--start x,y,heading)");
+    } else if (!facts->knows_heading) {
+        note(notes, "the start tells no heading: x is where the sensor's x axis pointed");
+    }
+}
+
+void notes_take(notes_t *notes, const replay_facts_t *facts)
+{
+    notes->count = 0;
+    note_stances(notes, facts);
+    note_rate(notes, facts);
+    note_gyro(notes, facts);
+    note_gravity(notes, facts);
+    note_start(notes, facts);
+}
