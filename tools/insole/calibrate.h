@@ -1,0 +1,27 @@
+/** @file calibrate.h  What the defaults cannot know, measured and printed as config lines.
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_HOST_CALIBRATE_H
+#define INSOLE_HOST_CALIBRATE_H
+
+#include <stdio.h>
+
+#include "options.h"
+
+/** Biases, noise and gravity from sessions of a resting sensor, each another pose perhaps. */
+bool calibrate_imu(const arguments_t *arguments, const char *const *sessions, size_t count,
+                   FILE *file, failure_t *failure);
+
+/** K of [TwoOrder (33)] from walks. */
+bool calibrate_stride(const arguments_t *arguments, const char *const *sessions, size_t count,
+                      FILE *file, failure_t *failure);
+
+/** Scale of the gyroscope from `--turns` whole turns between two rests. */
+bool calibrate_gyro_scale(const arguments_t *arguments, const char *const *sessions, size_t count,
+                          FILE *file, failure_t *failure);
+
+/** Prints `key = value` with so many decimals. */
+void calibrate_line(FILE *file, const char *key, double value, int decimals);
+
+#endif
