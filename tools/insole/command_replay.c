@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: MIT */
+#include "command.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "config_keys.h"
+#include "event_writer.h"
+#include "number.h"
+#include "output.h"
+#include "platform.h"
+#include "plot.h"
+#include "replay_options.h"
+#include "scoring.h"
+#include "summary.h"
+#include "track_writer.h"
+
+/* A replay with all that it writes while it runs and keeps for the end. */
+typedef struct {
+    const arguments_t *arguments;
+    replay_request_t request;
+    replay_facts_t facts;
+    scoring_t scoring;
+    track_writer_t writer;
+    FILE *events;
+    bool is_live;    /* a pipe is being followed: each row leaves at once */
+    bool keeps_rows; /* for the score and the plot */
+    track_t rows;
+} job_t;
+
+/* ---- while it runs ---------------------------------------------------------------------- */
+
+static bool take_row(void *context, const track_row_t *row, failure_t *failure)
+{
+    job_t *job = context;
+    if (job->keeps_rows) {
+        track_add(&job->rows, row);
+    }
+    return track_writer_row(&job->writer, row, failure);
+}
+
+static bool take_event(void *context, const foot_event_t *event, failure_t *failure)
+{
+    job_t *job = context;
+    if (job->events == NULL) {
+        return true;
+    }
+    event_writer_row(job->events, event);
+    return !job->is_live ||
+           output_flush(job->events, options_value(job->arguments, "events"), failure);
+}
+
+/* ---- before it -------------------------------------------------------------------------- */
+
+/* What is written must not be what is read. */
+static bool is_input(const job_t *job, const session_t *session, const char *path)
+{
+    const char *truth = options_value(job->arguments, "truth");
+    const char *config = options_value(job->arguments, "config");
+    return session_reads(session, path) || (truth != NULL && platform_is_same_file(truth, path)) ||
+           (config != NULL && platform_is_same_file(config, path));
+}
+
+static bool check_outputs(const job_t *job, const session_t *session, failure_t *failure)
+{
+    const char *const names[] = {"out", "events", "plot"};
+    const char *command = job->arguments->command;
+    int to_stdout = options_has(job->arguments, "json") ? 1 : 0;
+    for (int i = 0; i < 3; i++) {
+        const char *path = options_value(job->arguments, names[i]);
+        to_stdout += path != NULL && strcmp(path, "-") == 0 ? 1 : 0;
+        if (path != NULL && is_input(job, session, path)) {
+            return failure_usage(failure, "insole %s: --%s %s would overwrite what is read",
+                                 command, names[i], path);
+        }
+    }
+    if (to_stdout > 1) {
+        return failure_usage(failure,
+                             "insole %s: only one of --out -, --events -, --plot - and --json "
+                             "can have the standard output",
+                             command);
+    }
+    return true;
+}
+
+/* Opens the logs once before anything is written: a misspelt name must not cost a good track. */
+static bool check_files(const job_t *job, failure_t *failure)
+{
+    session_t session;
+    bool is_good = session_open(&session, job->request.logs, job->request.log_count, failure) &&
+                   check_outputs(job, &session, failure);
+    session_close(&session);
+    return is_good;
+}
+
+static bool reads_stdin(const arguments_t *arguments)
+{
+    for (size_t i = 0u; i < arguments->operand_count; i++) {
+        if (strcmp(arguments->operands[i], "-") == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool parse(job_t *job, track_format_t *format, failure_t *failure)
+{
+    const arguments_t *arguments = job->arguments;
+    const char *method = options_value(arguments, "method");
+    const char *format_name = options_value(arguments, "format");
+    *format = TRACK_CSV;
+    return replay_options_parse(arguments, &job->request, failure) &&
+           options_number(arguments, "rate", 0.0, 1000.0, &job->request.rate_hz, failure) &&
+           (method == NULL || replay_options_method(&job->request, method, failure)) &&
+           (format_name == NULL || track_format_parse(format_name, format, failure)) &&
+           scoring_begin(&job->scoring, arguments, failure);
+}
+
+static bool begin(job_t *job, failure_t *failure)
+{
+    const arguments_t *arguments = job->arguments;
+    track_format_t format;
+    if (!parse(job, &format, failure) || !check_files(job, failure)) {
+        return false;
+    }
+    job->is_live = reads_stdin(arguments);
+    job->keeps_rows =
+        !job->is_live || options_has(arguments, "plot") || options_has(arguments, "truth");
+    if (!track_writer_open(&job->writer, options_value(arguments, "out"), format, job->is_live,
+                           failure) ||
+        !output_open(&job->events, options_value(arguments, "events"), failure)) {
+        return false;
+    }
+    if (job->events != NULL) {
+        event_writer_head(job->events);
+    }
+    return true;
+}
+
+/* ---- after it --------------------------------------------------------------------------- */
+
+/* Closes both files whatever happened; the first failure counts. */
+static bool close_files(job_t *job, bool is_good, failure_t *failure)
+{
+    failure_t ignored;
+    bool is_closed = track_writer_close(&job->writer, is_good ? failure : &ignored);
+    is_good = is_good && is_closed;
+    is_closed = output_close(job->events, options_value(job->arguments, "events"),
+                             is_good ? failure : &ignored);
+    return is_good && is_closed;
+}
+
+static const char *base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL && slash[1] != '\0' ? slash + 1 : path;
+}
+
+static void describe(const summary_t *summary, char *text, size_t room)
+{
+    char walked[NUMBER_ROOM], rms[NUMBER_ROOM], end[NUMBER_ROOM];
+    const score_t *score = summary->score;
+    int length = snprintf(
+        text, room, "%s tracker, method %s, %s m in %lu strides", summary->tracker, summary->method,
+        number_fixed(walked, summary->facts->walked_m, 1), summary->facts->strides);
+    if (score != NULL && length > 0 && (size_t)length < room) {
+        snprintf(text + length, room - (size_t)length, "; track %s: rms %s m, end %s m",
+                 score_alignment_text(score->alignment), number_fixed(rms, score->rms_m, 2),
+                 number_fixed(end, score->end_2d_m, 2));
+    }
+}
+
+static bool draw(job_t *job, const summary_t *summary, failure_t *failure)
+{
+    const char *path = options_value(job->arguments, "plot");
+    const char *name = "track";
+    char subtitle[200];
+    if (path == NULL) {
+        return true;
+    }
+    for (size_t i = 0u; summary->score != NULL && i < job->rows.count; i++) {
+        score_move(&summary->score->motion, &job->rows.rows[i]);
+    }
+    describe(summary, subtitle, sizeof subtitle);
+    plot_t plot = {base_name(job->arguments->operands[0]),
+                   subtitle,
+                   &job->rows,
+                   &name,
+                   1u,
+                   summary->score != NULL ? &job->scoring.truth : NULL};
+    return plot_write(&plot, path, failure);
+}
+
+static bool report(job_t *job, failure_t *failure)
+{
+    char method[CONFIG_CHOICE_ROOM];
+    score_t score;
+    summary_t summary = {"foot", method, &job->facts, NULL};
+    config_choice(method, "foot_tracker.method", job->request.settings.foot.method);
+    if (job->keeps_rows && scoring_score(&job->scoring, &job->facts, &job->rows, &score)) {
+        summary.score = &score;
+    }
+    if (!draw(job, &summary, failure)) {
+        return false;
+    }
+    if (!options_has(job->arguments, "json")) {
+        summary_print(stderr, &summary);
+        return true;
+    }
+    summary_json(stdout, &summary);
+    return output_flush(stdout, "-", failure);
+}
+
+static bool run(const arguments_t *arguments, failure_t *failure)
+{
+    job_t job;
+    memset(&job, 0, sizeof job);
+    job.arguments = arguments;
+    bool is_good = begin(&job, failure);
+    if (is_good) {
+        replay_sink_t sink = {&job, take_row, take_event};
+        is_good = replay_run(&job.request, &sink, &job.facts, failure);
+    }
+    is_good = close_files(&job, is_good, failure);
+    is_good = is_good && report(&job, failure);
+    track_free(&job.rows);
+    scoring_free(&job.scoring);
+    replay_facts_free(&job.facts);
+    return is_good;
+}
+
+static const option_t options[] = {
+    {"method", "METHOD",
+     "ins: inertial navigation with zero-velocity updates (default);\n"
+     "pdr: strides of modelled length in the inertial direction"},
+    REPLAY_OPTIONS,
+    {"rate", "HZ", "rows of the track per second (default 10); 0: one per reading"},
+    {"out", "FILE", "write the track; - is standard output. Without --out none is written"},
+    {"format", "FORMAT", "of the track: csv (default), tum or geojson"},
+    {"events", "FILE", "write stances and strides as CSV"},
+    {"plot", "FILE", "draw the track, and the truth if there is one, as SVG"},
+    {"json", NULL, "summary as JSON on standard output instead of text on stderr"},
+    {NULL, NULL, NULL}};
+
+const command_t command_replay = {
+    "replay",
+    "LOG...",
+    "compute the track of a walk from its log",
+    "The logs together are one session on one clock: files, folders (all their .csv files), or -\n"
+    "for standard input, which is followed as it grows: each row is printed as soon as it is\n"
+    "known, about half a second after its reading. `insole help files` tells the formats.\n"
+    "\n"
+    "  insole replay walk.csv --plot walk.svg\n"
+    "  insole replay walk.csv --truth walk.truth.csv --out track.csv\n"
+    "  insole replay - --out - < /dev/ttyUSB0\n",
+    options,
+    run};

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+#include "help.h"
+
+#include <string.h>
+
+#include "insole/insole.h"
+
+static const command_t *const commands[] = {&command_replay,   &command_score,
+#ifdef INSOLE_HOST_HAS_SIMULATOR
+                                            &command_simulate,
+#endif
+                                            &command_compare,  &command_calibrate,
+                                            &command_config,   NULL};
+
+const command_t *const *help_commands(void)
+{
+    return commands;
+}
+
+void help_version(FILE *file)
+{
+    fputs("insole " INSOLE_VERSION "\n", file);
+}
+
+void help_program(FILE *file)
+{
+    fputs(
+        "insole finds where a walking person is, from the log of an inertial sensor on the shoe.\n"
+        "\n"
+        "First steps: record a log of lines  imu,t,ax,ay,az,gx,gy,gz  (s, m/s^2, rad/s), standing\n"
+        "still for two seconds before the first step, and look at it:\n"
+        "\n"
+        "  insole replay walk.csv --plot walk.svg\n"
+        "\n"
+        "The summary says what was found, what had to be repaired, and what to do better.\n"
+        "\n"
+        "Commands\n",
+        file);
+    for (const command_t *const *command = commands; *command != NULL; command++) {
+        fprintf(file, "  %-10s %s\n", (*command)->name, (*command)->purpose);
+    }
+    fputs("\n"
+          "insole COMMAND --help    options and examples of a command\n"
+          "insole help files        formats of logs, truth and tracks\n"
+          "insole --version\n"
+          "\n"
+          "Exit: 0 done, 1 bad input, 2 wrong usage.\n",
+          file);
+}
+
+void help_files(FILE *file)
+{
+    fputs(
+        "All files are text, all lengths metres, all times seconds; # starts a comment.\n"
+        "\n"
+        "Log: one record a line, in order of time. t has up to 6 decimals (more are rounded) and\n"
+        "may be negative; tracks keep the log's clock.\n"
+        "\n"
+        "  imu,t,ax,ay,az,gx,gy,gz      m/s^2 (specific force: +9.8 upwards at rest), rad/s\n"
+        "  acc,t,ax,ay,az               where the accelerometer and\n"
+        "  gyr,t,gx,gy,gz               the gyroscope come apart\n"
+        "  mag,t,mx,my,mz               uT\n"
+        "  rss,t,id,dbm[,age]           one line per access point; age: seconds since heard\n"
+        "  range,t,id,metres[,sigma]    RTT or UWB\n"
+        "  start,t,x,y[,heading[,sigma_m,sigma_rad]]   known start; heading: direction walked "
+        "over\n"
+        "                               the first two strides, counter-clockwise from +x\n"
+        "  truth,t,x,y[,z]              for scoring; no tracker ever sees it\n"
+        "\n"
+        "A value of a sensor may be empty or nan: that is counted as trouble of the sensor.\n"
+        "\n"
+        "Or a table with a header line: t (or time) and ax,ay,az,gx,gy,gz, mx,my,mz make a log;\n"
+        "t,x,y and perhaps z make a truth. Any order, other columns are passed over.\n"
+        "\n"
+        "Session: several logs on one clock, or a folder of them, merged by time.\n"
+        "\n"
+        "Track (replay --out): t,x,y,z,heading,var_x,cov_xy,var_y,var_z,var_heading,state\n"
+        "  state: align (not yet stood still), search (place not known), track, coast (readings\n"
+        "  are missing), lost\n"
+        "\n"
+        "Config: lines  key = value ; `insole config` prints all keys.\n",
+        file);
+}
+
+/* The text's further lines stand below the first. */
+static void print_indented(FILE *file, const char *text, int column)
+{
+    for (; *text != '\0'; text++) {
+        putc(*text, file);
+        if (*text == '\n') {
+            fprintf(file, "%*s", column, "");
+        }
+    }
+    putc('\n', file);
+}
+
+static void print_option(FILE *file, const option_t *option)
+{
+    char name[64];
+    enum { COLUMN = 26 };
+    snprintf(name, sizeof name, "--%s%s%s", option->name, option->value != NULL ? " " : "",
+             option->value != NULL ? option->value : "");
+    if (strlen(name) > COLUMN - 4) {
+        fprintf(file, "  %s\n%*s", name, COLUMN, "");
+    } else {
+        fprintf(file, "  %-*s", COLUMN - 2, name);
+    }
+    print_indented(file, option->text, COLUMN);
+}
+
+void help_command(FILE *file, const command_t *command)
+{
+    fprintf(file, "insole %s%s%s [options]\n\n%s.\n\n%s\nOptions\n", command->name,
+            command->operands[0] != '\0' ? " " : "", command->operands, command->purpose,
+            command->text);
+    for (const option_t *option = command->options; option->name != NULL; option++) {
+        print_option(file, option);
+    }
+}

@@ -1,0 +1,37 @@
+/** @file replay_options.h  The options that every command which replays has in common.
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_HOST_REPLAY_OPTIONS_H
+#define INSOLE_HOST_REPLAY_OPTIONS_H
+
+#include "options.h"
+#include "replay.h"
+
+/* clang-format off */
+/** Rows of an option_t list. */
+#define REPLAY_OPTIONS                                                                            \
+    {"tracker", "foot", "which tracker; foot is the one there is (default)"},                     \
+    {"config", "FILE", "settings: lines `key = value` (`insole config` prints them all)"},        \
+    {"set", "KEY=VALUE", "one setting; may be given often, and counts more than --config"},       \
+    {"start", "X,Y[,HEADING]", "where the walk begins [m], and its direction over the first two\n"\
+     "strides [rad, counter-clockwise from +x]; start records in the logs do not\n"               \
+     "count then"},                                                                               \
+    {"no-start", NULL, "start records in the logs do not count"},                                 \
+    {"accel-unit", "UNIT", "mps2 (default), g or mg"},                                            \
+    {"gyro-unit", "UNIT", "radps (default) or dps"},                                              \
+    {"truth", "FILE", "true positions to score against; the tracker never sees them.\n"           \
+     "Truth records among the logs serve too"},                                                   \
+    {"align", "HOW", "bring the track to the truth before scoring: none, yaw (turned about\n"     \
+     "its start) or se2 (turned and shifted); default: what no start tells is\n"                 \
+     "free"}
+/* clang-format on */
+
+/** Fills a request from the options and operands, which are the logs. */
+bool replay_options_parse(const arguments_t *arguments, replay_request_t *request,
+                          failure_t *failure);
+
+/** Sets the method of the request's tracker. */
+bool replay_options_method(replay_request_t *request, const char *method, failure_t *failure);
+
+#endif
