@@ -1,0 +1,324 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# usage: cli.sh PROGRAM SCRATCH_FOLDER
+# The program run as people run it: what it prints and how it ends, for good and for bad input.
+set -u
+program=$1
+mkdir -p "$2" && cd "$2" || exit 1
+rm -rf ./*
+failures=0
+
+fail() {
+    echo "FAILED: insole $call: $1"
+    failures=$((failures + 1))
+}
+
+run() { # ARGUMENT... ; standard input from the file `input`
+    call="$*"
+    "$program" "$@" <input >out 2>err
+    status=$?
+}
+
+status_is() {
+    [ "$status" -eq "$1" ] || fail "exit $status, expected $1: $(cat err)"
+}
+
+is() { # FILE TEXT: the whole of it
+    printf '%s\n' "$2" | cmp -s - "$1" || fail "$1 is
+$(cat "$1")
+instead of
+$2"
+}
+
+has() { # FILE TEXT
+    grep -qF -- "$2" "$1" || fail "$1 does not have \"$2\" but
+$(cat "$1")"
+}
+
+lacks() { # FILE TEXT
+    ! grep -qF -- "$2" "$1" || fail "$1 has \"$2\""
+}
+
+empty() {
+    [ ! -s "$1" ] || fail "$1 is not empty: $(cat "$1")"
+}
+
+refuses() { # EXIT TEXT ARGUMENT... : this code, this text on stderr, nothing on stdout
+    wanted=$1 text=$2
+    shift 2
+    run "$@"
+    status_is "$wanted"
+    is err "$text"
+    empty out
+}
+
+# ---- logs ----------------------------------------------------------------------------------
+
+: >input
+# A foot that stands for 2 s, makes ten strides of 1.2 m in a bend, and stands again.
+awk 'BEGIN {
+    pi = 3.14159265358979
+    for (i = 0; i <= 3000; i++) {
+        t = i / 200; u = -1; k = int((t - 2) / 1.1)
+        if (t > 2 && k < 10) u = (t - 2 - k * 1.1) / 0.6
+        ax = 0; ay = 0; az = 9.81; wz = 0
+        if (u > 0 && u < 1) {
+            v = u * (1 - u)
+            s = u * u * u * (10 - 15 * u + 6 * u * u)
+            a = 1.2 * 60 * v * (1 - 2 * u) / 0.36
+            ax = a * cos(0.6 * s); ay = -a * sin(0.6 * s)
+            az += 6.4 * (6 * v * (1 - 2 * u) ^ 2 - 6 * v * v) / 0.36
+            wz = 0.6 * 30 * v * v / 0.6
+        }
+        printf "imu,%.6f,%.6f,%.6f,%.6f,0,0,%.6f\n", t, ax, ay, az, wz
+    }
+}' >walk.csv
+printf 't,x,y\n0,0,0\n15,0,0\n' >loop.csv
+printf 't,x,y\n0,5,5\n' >one.csv
+awk -F, '{ printf "%s,%s,%.6f,%.6f,%.6f,%s,%s,%.6f\n", $1, $2, $3 / 9.80665, $4 / 9.80665,
+           $5 / 9.80665, $6, $7, $8 * 57.2957795 }' walk.csv >units.csv
+printf 'imu,0,1,2\n' >bad.csv
+: >empty.csv
+
+# ---- the program ---------------------------------------------------------------------------
+
+run --version; status_is 0; has out 'insole '; empty err
+run --help; status_is 0; empty err
+for command in replay score compare calibrate config; do
+    has out "  $command "
+    run "$command" --help; status_is 0; empty err; has out "insole $command"; has out 'Options'
+    run help "$command"; status_is 0; has out "insole $command"
+    run --help
+done
+run help files; status_is 0; has out 'imu,t,ax,ay,az,gx,gy,gz'
+run; status_is 2; empty out; has err 'Commands'
+refuses 2 'insole: unknown command relpay: did you mean replay?' relpay
+refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' xyzzy
+refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' help xyzzy
+
+# No line of help is too wide for a terminal of 100 columns.
+for command in replay score compare calibrate config files; do
+    run help "$command"
+    [ "$(awk 'length > 100' out | wc -l)" -eq 0 ] || fail 'lines of more than 100 columns'
+done
+
+# ---- replay: usage -------------------------------------------------------------------------
+
+refuses 2 'insole replay: no log: expected files, folders or - for standard input' replay
+refuses 2 'insole replay: unknown option --plt: did you mean --plot?' replay walk.csv --plt x
+refuses 2 'insole replay: --out needs a value: --out FILE' replay walk.csv --out
+refuses 2 'insole replay: --rate 5000: expected a number from 0 to 1000' replay walk.csv --rate 5000
+refuses 2 'insole replay: --rate fast: expected a number from 0 to 1000' replay walk.csv --rate fast
+refuses 2 'insole: --format xml: expected csv, tum or geojson' replay walk.csv --format xml
+refuses 2 'insole: --align sim3: expected none, yaw or se2' replay walk.csv --align sim3
+refuses 2 'insole: --method: foot_tracker.method: "gps" is not one of ins|pdr' \
+    replay walk.csv --method gps
+refuses 2 'insole replay: --tracker hand: expected foot' replay walk.csv --tracker hand
+refuses 2 'insole: --accel-unit ft: expected mps2, g or mg' replay walk.csv --accel-unit ft
+refuses 2 'insole replay: --start 1: expected x,y or x,y,heading in m and rad' \
+    replay walk.csv --start 1
+refuses 2 'insole replay: --start 1,2,3,4: expected x,y or x,y,heading in m and rad' \
+    replay walk.csv --start 1,2,3,4
+refuses 2 'insole replay: --start and --no-start contradict each other' \
+    replay walk.csv --start 1,2 --no-start
+refuses 2 'insole replay: --set unknown key "colour": `insole config` lists all of them' \
+    replay walk.csv --set colour=red
+refuses 2 'insole replay: --set unknown key "sigma_zupt": did you mean zupt_ekf.sigma_zupt_mps?' \
+    replay walk.csv --set sigma_zupt=1
+refuses 2 'insole replay: --set zupt_ekf.sigma_zupt_mps: 9 is out of range: expected 0.0001 .. 1 m/s' \
+    replay walk.csv --set zupt_ekf.sigma_zupt_mps=9
+refuses 2 'insole replay: --set "method": expected key=value' replay walk.csv --set method
+refuses 2 'insole replay: only one of --out -, --events -, --plot - and --json can have the standard output' \
+    replay walk.csv --out - --json
+refuses 2 'insole replay: --out walk.csv would overwrite what is read' \
+    replay walk.csv --out walk.csv
+refuses 2 'insole replay: --plot ./loop.csv would overwrite what is read' \
+    replay walk.csv --truth loop.csv --plot ./loop.csv
+[ "$(wc -l <walk.csv)" -eq 3001 ] || fail 'the log has been overwritten'
+
+# ---- replay: bad input ---------------------------------------------------------------------
+
+refuses 1 'bad.csv:1: too few fields: expected imu,t,ax,ay,az,gx,gy,gz' replay bad.csv
+refuses 1 'absent.csv: cannot open: No such file or directory' replay walk.csv absent.csv
+refuses 1 'empty.csv: no imu record in the session: expected imu,t,ax,ay,az,gx,gy,gz' \
+    replay empty.csv
+refuses 1 'stdin: no imu record in the session: expected imu,t,ax,ay,az,gx,gy,gz' replay -
+refuses 1 'insole: the accelerometer looks like g (median of |a| is 1.00034): use --accel-unit g' \
+    replay units.csv
+refuses 1 'insole: the gyroscope looks like degrees per second (it keeps beyond 40 rad/s): use --gyro-unit dps' \
+    replay units.csv --accel-unit g
+refuses 1 'bad.csv:1: too few fields: expected imu,t,ax,ay,az,gx,gy,gz' \
+    replay walk.csv --truth bad.csv
+refuses 1 'no/track.csv: cannot write: No such file or directory' \
+    replay walk.csv --out no/track.csv
+printf 'a = 1\n' >bad.conf
+refuses 1 'bad.conf:1: unknown key "a": `insole config` lists all of them' \
+    replay walk.csv --config bad.conf
+mkdir -p hollow
+refuses 1 'hollow: folder has no log: expected .csv files' replay hollow
+cat walk.csv bad.csv >torn.csv
+run replay torn.csv --out torn.track.csv
+status_is 1
+is err 'torn.csv:3002: too few fields: expected imu,t,ax,ay,az,gx,gy,gz'
+
+# ---- replay --------------------------------------------------------------------------------
+
+run replay walk.csv --out track.csv --events events.csv --plot plot.svg
+status_is 0; empty out
+has err 'foot tracker, method ins'
+has err '  duration       15.0 s, 3001 readings at 200.0 Hz'
+has err ' in 10 strides'
+has err '  refused        none'
+has err '  the log lacks  start, mag, rss, range'
+has err 'note: no start is known'
+lacks err score
+has track.csv 't,x,y,z,heading,var_x,cov_xy,var_y,var_z,var_heading,state'
+[ "$(wc -l <track.csv)" -eq 152 ] || fail 'not a row for every 0.1 s'
+[ "$(grep -c '^stride,' events.csv)" -eq 10 ] || fail 'not ten strides among the events'
+has plot.svg '</svg>'
+
+run replay walk.csv
+status_is 0; empty out
+run replay walk.csv --out -
+status_is 0
+cmp -s out track.csv || fail 'standard output is not what --out writes'
+cat walk.csv >input
+run replay - --out -
+cmp -s out track.csv || fail 'a log on standard input gives another track'
+: >input
+run replay walk.csv --out whole.csv --rate 0
+[ "$(wc -l <whole.csv)" -eq 3002 ] || fail 'not a row for every reading'
+run replay walk.csv --json
+status_is 0; empty err
+has out '"strides": 10,'
+has out '"lacks": ['
+run replay walk.csv --truth loop.csv --json
+has out '"align": "se2"'
+run replay walk.csv --truth loop.csv --start 0,0
+has err '(turned about its start'
+run replay walk.csv --truth one.csv --start 5,5,0.3
+has err '(as it is)'
+has err '  end               0.000 m'
+run replay walk.csv --method pdr
+has err 'foot tracker, method pdr'
+run replay units.csv --accel-unit g --gyro-unit dps --out back.csv
+status_is 0
+has err ' in 10 strides'
+run replay walk.csv --format tum --out -
+[ "$(head -n 1 out)" = '0.000000 0.0000 0.0000 0.0000 0.0000000 0.0000000 0.0000000 1.0000000' ] ||
+    fail "tum begins $(head -n 1 out)"
+run replay walk.csv --format geojson --out -
+has out '"type":"LineString"'
+mkdir -p session
+cp walk.csv session/imu.csv
+printf 'truth,0,0,0\ntruth,14,9,9\n' >session/truth.csv
+cp track.csv session/track.csv
+run replay session --out from_folder.csv
+status_is 0
+cmp -s from_folder.csv track.csv || fail 'a folder gives another track than its log'
+has err 'score against the truth'
+
+# A row leaves as soon as it is known: half a second of log before the end must not be awaited.
+mkfifo pipe 2>/dev/null && {
+    call='replay - (a pipe that stays open)'
+    "$program" replay - --out live.csv <pipe 2>/dev/null &
+    reader=$!
+    exec 9>pipe
+    head -n 1001 walk.csv >&9
+    tries=0
+    until [ "$(wc -l <live.csv)" -ge 46 ] || [ "$tries" -ge 100 ]; do
+        sleep 0.1 2>/dev/null || sleep 1
+        tries=$((tries + 1))
+    done
+    rows=$(wc -l <live.csv)
+    exec 9>&-
+    wait $reader
+    [ "$rows" -ge 46 ] || fail "only $rows rows of 5 s had left"
+}
+
+if [ -w /dev/full ]; then
+    run replay walk.csv --out /dev/full
+    status_is 1
+    is err '/dev/full: cannot write: No space left on device'
+fi
+
+# ---- score ---------------------------------------------------------------------------------
+
+refuses 2 'insole score: expected two files, TRACK and TRUTH' score track.csv
+refuses 1 'walk.csv: holds no place: expected a header such as t,x,y or lines truth,t,x,y[,z]' \
+    score walk.csv loop.csv
+refuses 2 'insole: --align best: expected none, yaw or se2' score track.csv loop.csv --align best
+printf 't,x,y\n1,0,0\n0,0,0\n' >back.truth.csv
+refuses 1 'back.truth.csv:3: time goes back: expected places in order of time' \
+    score track.csv back.truth.csv
+run score track.csv track.csv
+status_is 0; empty err
+has out '  max               0.000 m'
+has out '  points              151'
+run score track.csv loop.csv --align se2 --json
+status_is 0
+has out '"align": "se2"'
+
+# ---- compare -------------------------------------------------------------------------------
+
+refuses 2 'insole compare: expected --methods A,B' compare walk.csv
+refuses 2 'insole: --method: foot_tracker.method: "gps" is not one of ins|pdr' \
+    compare walk.csv --methods ins,gps
+run compare walk.csv --methods ins,pdr --truth loop.csv --plot both.svg
+status_is 0; empty err
+[ "$(wc -l <out)" -eq 3 ] || fail 'not a line per method'
+has out 'rms m'
+has both.svg '>pdr<'
+run compare walk.csv --methods ins,pdr --json
+status_is 0
+has out '"method": "pdr"'
+
+# ---- config --------------------------------------------------------------------------------
+
+refuses 2 'insole config: takes no operands, only --doc' config all
+run config
+status_is 0; empty err
+has out 'zupt_ekf.sigma_zupt_mps = 0.'
+cp out default.conf
+run replay walk.csv --config default.conf --out again.csv
+status_is 0
+cmp -s again.csv track.csv || fail 'the printed defaults give another track'
+run config --doc
+has out '| `foot_tracker.method` | ins |'
+run replay walk.csv --config default.conf --set stride.min_length_m=2
+status_is 0
+lacks err ' in 10 strides'
+
+# ---- calibrate -----------------------------------------------------------------------------
+
+refuses 2 'insole calibrate nothing: expected imu, stride or gyro-scale' calibrate
+refuses 2 'insole calibrate magnet: expected imu, stride or gyro-scale' calibrate magnet walk.csv
+refuses 2 'insole calibrate imu: no log: expected one or more' calibrate imu
+refuses 2 'insole calibrate gyro-scale: expected one LOG and --turns N' calibrate gyro-scale walk.csv
+run calibrate imu walk.csv
+status_is 1; empty out
+has err 'walk.csv: the sensor moves 2.0 s into the log'
+run calibrate stride walk.csv
+status_is 0; empty err
+has out 'stride.k_stride = 0.'
+cp out stride.conf
+run replay walk.csv --method pdr --config stride.conf
+status_is 0
+head -n 390 walk.csv >rest.csv
+run calibrate imu rest.csv
+status_is 1
+has err 'rest.csv: shorter than 2 s'
+
+# ---- simulate, in builds that have it ------------------------------------------------------
+
+run --help
+if grep -q '^  simulate ' out; then
+    refuses 2 'insole simulate: expected one SCENARIO and --out DIR' simulate
+    refuses 2 'insole simulate: --seed x: expected a whole number' simulate a --out b --seed x
+    run simulate absent.scenario --out simulated
+    status_is 1
+    has err 'absent.scenario'
+fi
+
+[ "$failures" -eq 0 ] && echo 'cli: fine'
+exit "$failures"
