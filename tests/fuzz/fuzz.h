@@ -5,6 +5,8 @@
 #ifndef INSOLE_TESTS_FUZZ_H
 #define INSOLE_TESTS_FUZZ_H
 
+#define _POSIX_C_SOURCE 200809L /* fmemopen */
+
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -60,6 +62,18 @@ static inline void fuzz_claim(int holds, const char *what)
         fprintf(stderr, "does not hold: %s\n", what);
         abort();
     }
+}
+
+/** The input as a file, open for reading. */
+static inline FILE *fuzz_file(const uint8_t *data, size_t size)
+{
+    static uint8_t bytes[(1 << 16) + 1];
+    fuzz_claim(size < sizeof bytes, "the input fits");
+    memcpy(bytes, data, size);
+    bytes[size] = '\n'; /* an empty file cannot be opened in memory */
+    FILE *file = fmemopen(bytes, size > 0 ? size : 1, "rb");
+    fuzz_claim(file != NULL, "there is memory");
+    return file;
 }
 
 #endif
