@@ -14,9 +14,17 @@ install_library() {
     rm -rf "$work"
     "$CMAKE" -S "$source" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=$shared \
         -DINSOLE_BUILD_TESTS=OFF -DINSOLE_BUILD_TOOLS=ON -DCMAKE_INSTALL_PREFIX="$work/first"
-    "$CMAKE" --build "$work/build"
+    "$CMAKE" --build "$work/build" --parallel 2
     "$CMAKE" --install "$work/build"
     mv "$work/first" "$prefix" # an installed tree may be moved
+}
+
+# The program and its manual come along.
+check_program() {
+    [ -f "$source/tools/insole/CMakeLists.txt" ] || return 0
+    run "$prefix/bin/insole" --help >"$work/help"
+    grep -q replay "$work/help" || fail 'the installed program does not tell its commands'
+    find "$prefix" -path '*/man1/insole.1*' | grep -q . || fail 'no manual page is installed'
 }
 
 # Every header stands on its own, in C99 and in C++11.
@@ -49,7 +57,7 @@ use_pkg_config() {
 
 use_subdirectory() {
     "$CMAKE" -S "$here/app" -B "$work/whole" -DINSOLE_SOURCE="$source" -DWITH_CXX="$cxx"
-    "$CMAKE" --build "$work/whole"
+    "$CMAKE" --build "$work/whole" --parallel 2
     [ ! -e "$work/whole/insole/tests" ] || fail 'a part of another project builds its tests'
     run "$work/whole/consumer_c"
 }
@@ -71,6 +79,7 @@ if command -v c++ >/dev/null; then
 else
     echo 'no C++ compiler: C++ not tried'
 fi
+check_program
 check_headers
 use_find_package
 use_pkg_config
