@@ -57,15 +57,26 @@ static bool take_exponent(const char **text, decimal_t *decimal)
     return true;
 }
 
+/* 10^exponent for exponent >= 0; exact up to 22. */
+static long double power_of_ten(int exponent)
+{
+    long double result = 1.0L, power = 10.0L;
+    for (; exponent > 0; exponent /= 2, power *= power) {
+        result *= exponent % 2 != 0 ? power : 1.0L;
+    }
+    return result;
+}
+
 static double decimal_value(const decimal_t *decimal)
 {
-    long double value = (long double)decimal->digits;
-    int steps = decimal->exponent < 0 ? -decimal->exponent : decimal->exponent;
-    long double factor = 1.0L, power = 10.0L;
-    for (steps = steps < 700 ? steps : 700; steps > 0; steps /= 2, power *= power) {
-        factor *= steps % 2 != 0 ? power : 1.0L;
+    int size = decimal->exponent < 0 ? -decimal->exponent : decimal->exponent;
+    if (size <= 22 && decimal->digits <= UINT64_C(1) << 53) { /* both exact: rounded once */
+        double digits = (double)decimal->digits, power = (double)power_of_ten(size);
+        return decimal->exponent < 0 ? digits / power : digits * power;
     }
-    return (double)(decimal->exponent < 0 ? value / factor : value * factor);
+    long double power = power_of_ten(size < 700 ? size : 700);
+    long double digits = (long double)decimal->digits;
+    return (double)(decimal->exponent < 0 ? digits / power : digits * power);
 }
 
 bool number_parse(const char *text, double *value)
@@ -164,18 +175,9 @@ bool number_parse_whole(const char *text, int64_t low, int64_t high, int64_t *va
     return true;
 }
 
-static double power_of_ten(int exponent)
-{
-    double power = 1.0;
-    for (; exponent > 0; exponent--) {
-        power *= 10.0;
-    }
-    return power;
-}
-
 const char *number_fixed(char buffer[NUMBER_ROOM], double value, int decimals)
 {
-    double unit = power_of_ten(decimals);
+    double unit = (double)power_of_ten(decimals);
     if (!(fabs(value) * unit < 9.0e18)) {
         snprintf(buffer, NUMBER_ROOM, "nan");
         return buffer;
