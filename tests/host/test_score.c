@@ -113,6 +113,22 @@ START_TEST(points_without_a_place_count_thirty_metres)
 }
 END_TEST
 
+/* A start told at 2.135 s between two rows: the track was elsewhere before. */
+START_TEST(a_leap_is_not_walked)
+{
+    add(&track, 2.1, 0.0, 0.0, 0.0);
+    add(&track, 2.2, 78.0, 53.0, 0.0);
+    add(&track, 2.3, 79.9, 53.0, 0.0); /* 19 m/s: still interpolated */
+    add(&truth, 2.1, 0.0, 0.0, 0.0);
+    add(&truth, 2.135, 78.0, 53.0, 0.0);
+    add(&truth, 2.25, 78.95, 53.0, 0.0);
+    score_compute(&track, &truth, ALIGN_NONE, &score);
+    ck_assert_uint_eq(score.missing, 0u);
+    ASSERT_NEAR(score.max_m, 0.0, 1e-9, "m");
+    clear();
+}
+END_TEST
+
 START_TEST(an_empty_track_misses_everything)
 {
     add(&truth, 0.0, 0.0, 0.0, 0.0);
@@ -385,6 +401,7 @@ Suite *insole_suite(void)
     suite_add(suite, "statistics", statistics_of_hand_computed_numbers);
     suite_add(suite, "by hand", a_score_by_hand);
     suite_add(suite, "missing", points_without_a_place_count_thirty_metres);
+    suite_add(suite, "leap", a_leap_is_not_walked);
     suite_add(suite, "empty", an_empty_track_misses_everything);
     suite_add(suite, "height", height_is_left_out_where_it_is_not_known);
     suite_add(suite, "se2", random_rigid_motions_are_found_again);

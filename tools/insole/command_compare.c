@@ -48,7 +48,7 @@ static bool run_trial(contest_t *contest, const char *method, failure_t *failure
     trial_t *trial = &contest->trials[contest->count];
     track_t *track = &contest->tracks[contest->count];
     replay_request_t request = contest->request;
-    replay_sink_t sink = {track, keep_row, NULL};
+    replay_sink_t sink = {track, NULL, keep_row, NULL};
     contest->count++;
     trial->method = method;
     if (!replay_options_method(&request, method, failure) ||
@@ -135,27 +135,32 @@ static void print_json(const contest_t *contest)
     json_end(&json);
 }
 
-static bool draw(contest_t *contest, failure_t *failure)
+static bool draw(const contest_t *contest, failure_t *failure)
 {
     const char *path = options_value(contest->arguments, "plot");
     const char *names[METHODS_MAX];
+    track_t drawn[METHODS_MAX];
+    bool has_truth = contest->trials[0].has_score;
     if (path == NULL) {
         return true;
     }
     for (int i = 0; i < contest->count; i++) {
-        names[i] = contest->trials[i].method;
-        for (size_t k = 0u; contest->trials[i].has_score && k < contest->tracks[i].count; k++) {
-            score_move(&contest->trials[i].score.motion, &contest->tracks[i].rows[k]);
-        }
+        const trial_t *trial = &contest->trials[i];
+        names[i] = trial->method;
+        drawn[i] = scoring_drawn(&trial->facts, &contest->tracks[i],
+                                 trial->has_score ? &trial->score : NULL);
     }
-    bool has_truth = contest->trials[0].has_score;
     plot_t plot = {contest->arguments->operands[0],
                    has_truth ? score_alignment_text(contest->trials[0].score.alignment) : "",
-                   contest->tracks,
+                   drawn,
                    names,
                    (size_t)contest->count,
                    has_truth ? &contest->scoring.truth : NULL};
-    return plot_write(&plot, path, failure);
+    bool is_good = plot_write(&plot, path, failure);
+    for (int i = 0; i < contest->count; i++) {
+        track_free(&drawn[i]);
+    }
+    return is_good;
 }
 
 static bool report(contest_t *contest, failure_t *failure)

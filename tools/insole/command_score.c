@@ -59,6 +59,7 @@ const command_t command_score = {
     "Both are tables with a header that names t,x,y and perhaps z; TRACK is what `replay --out`\n"
     "writes. The track is interpolated at the times of the truth; a point of truth where the\n"
     "track has a hole of more than 2 s, or has ended more than 0.5 s before, counts 30 m.\n"
+    "Where the track leaps (more than 20 m/s), the row after the leap counts.\n"
     "A truth of two points is a loop or a walk between them: its end error is what counts.\n"
     "\n"
     "  insole score track.csv walk.truth.csv --align se2\n",

@@ -60,6 +60,12 @@ static void take_place(pair_t *pair, const track_row_t *a, const track_row_t *b,
     pair->z_m = a->z_m + share * (b->z_m - a->z_m);
 }
 
+/* What nobody can walk: a start or a fix has put the track elsewhere. */
+static bool is_leap(const track_row_t *a, const track_row_t *b)
+{
+    return hypot(b->x_m - a->x_m, b->y_m - a->y_m) > SCORE_LEAP_MPS * seconds_between(a, b);
+}
+
 /* `after`: number of the first row after the point's time. */
 static void find_place(const track_t *track, size_t after, pair_t *pair)
 {
@@ -73,7 +79,8 @@ static void find_place(const track_t *track, size_t after, pair_t *pair)
     }
     const track_row_t *a = &rows[after - 1u], *b = &rows[after];
     if (seconds_between(a, b) <= SCORE_GAP_S) {
-        take_place(pair, a, b, seconds_between(a, truth) / seconds_between(a, b));
+        bool is_later = is_leap(a, b) && truth->t_us > a->t_us;
+        take_place(pair, a, b, is_later ? 1.0 : seconds_between(a, truth) / seconds_between(a, b));
     }
 }
 

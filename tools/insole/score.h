@@ -21,6 +21,7 @@
 #define SCORE_GAP_S     2.0
 #define SCORE_END_S     0.5
 #define SCORE_MISSING_M 30.0
+#define SCORE_LEAP_MPS  20.0
 
 typedef enum { ALIGN_NONE, ALIGN_YAW, ALIGN_SE2 } alignment_t;
 

@@ -39,6 +39,21 @@ bool scoring_score(scoring_t *scoring, replay_facts_t *facts, const track_t *row
     return true;
 }
 
+track_t scoring_drawn(const replay_facts_t *facts, const track_t *rows, const score_t *score)
+{
+    track_t drawn = {NULL, 0u, 0u};
+    for (size_t i = 0u; i < rows->count; i++) {
+        track_row_t row = rows->rows[i];
+        if (!facts->knows_place || row.t_us >= facts->start_us) {
+            if (score != NULL) {
+                score_move(&score->motion, &row);
+            }
+            track_add(&drawn, &row);
+        }
+    }
+    return drawn;
+}
+
 void scoring_free(scoring_t *scoring)
 {
     track_free(&scoring->truth);

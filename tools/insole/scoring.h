@@ -25,6 +25,10 @@ bool scoring_begin(scoring_t *scoring, const arguments_t *arguments, failure_t *
  *  @return false when there is no truth */
 bool scoring_score(scoring_t *scoring, replay_facts_t *facts, const track_t *rows, score_t *score);
 
+/** The rows as they belong into a picture: without those before the start, which are not on the
+ *  map, and moved as `score` did (NULL: not at all). To be freed by track_free. */
+track_t scoring_drawn(const replay_facts_t *facts, const track_t *rows, const score_t *score);
+
 void scoring_free(scoring_t *scoring);
 
 #endif
