@@ -236,6 +236,20 @@ mkfifo pipe 2>/dev/null && {
     [ "$rows" -ge 46 ] || fail "only $rows rows of 5 s had left"
 }
 
+# A log may be a pipe with a name: it is opened once.
+call='replay pipe'
+cat walk.csv >pipe &
+"$program" replay pipe --out piped.csv 2>err
+cmp -s piped.csv track.csv || fail 'a log from a named pipe gives another track'
+wait
+
+# An older track stays where it is when the log is not there or the command is wrong.
+cp track.csv kept.csv
+run replay absent.csv --out kept.csv
+cmp -s kept.csv track.csv || fail 'a missing log has cost an older track'
+run replay walk.csv --out kept.csv --rate fast
+cmp -s kept.csv track.csv || fail 'a wrong option has cost an older track'
+
 if [ -w /dev/full ]; then
     run replay walk.csv --out /dev/full
     status_is 1

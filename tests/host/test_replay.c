@@ -6,7 +6,7 @@
 #include "files.h"
 #include "foot_walk.h"
 #include "near.h"
-#include "score.h"
+#include "scoring.h"
 #include "suite.h"
 
 /* 20 strides of 1.3 m, 7 degrees left in each. */
@@ -63,7 +63,7 @@ static replay_request_t request_of(const char *const *path)
 
 static void run(const replay_request_t *request)
 {
-    const replay_sink_t sink = {&result, keep_row, keep_event};
+    const replay_sink_t sink = {&result, NULL, keep_row, keep_event};
     ck_assert_msg(replay_run(request, &sink, &result.facts, &result.failure), "%s",
                   result.failure.text);
 }
@@ -188,6 +188,29 @@ START_TEST(a_start_from_outside_replaces_that_of_the_log)
 }
 END_TEST
 
+/* Before the start the track is not on the map, and not in the picture. */
+START_TEST(what_was_before_the_start_is_not_drawn)
+{
+    const char *const path = write_walk(&bend, "late.csv", "truth,-3.25,0,0\nstart,1.02,100,50\n");
+    replay_request_t request = request_of(&path);
+    score_t score;
+    run(&request);
+    ck_assert_int_eq(result.facts.start_us, 1020000);
+    memset(&score, 0, sizeof score);
+    score.motion.x_m = 1000.0;
+    track_t drawn = scoring_drawn(&result.facts, &result.rows, &score);
+    ck_assert_int_eq(drawn.rows[0].t_us, 1050000);
+    ASSERT_NEAR(drawn.rows[0].x_m, 1100.0, 1.5, "m");
+    ck_assert_uint_eq(drawn.count + 43u, result.rows.count);
+    track_free(&drawn);
+    result.facts.knows_place = false;
+    drawn = scoring_drawn(&result.facts, &result.rows, NULL);
+    ck_assert_uint_eq(drawn.count, result.rows.count);
+    track_free(&drawn);
+    clear();
+}
+END_TEST
+
 /* ---- what no estimator may see ---------------------------------------------------------- */
 
 /* Two logs that differ in their truth alone give the same bits. */
@@ -286,7 +309,7 @@ START_TEST(nobody_need_take_the_results)
 {
     const char *const path = write_walk(&bend, "walk.csv", "");
     replay_request_t request = request_of(&path);
-    replay_sink_t sink = {NULL, NULL, NULL};
+    replay_sink_t sink = {NULL, NULL, NULL, NULL};
     ck_assert(replay_run(&request, &sink, &result.facts, &result.failure));
     ck_assert_uint_eq(result.facts.strides, 20u);
     clear();
@@ -304,7 +327,7 @@ START_TEST(who_takes_the_results_can_stop_the_replay)
 {
     const char *const path = write_walk(&bend, "walk.csv", "");
     replay_request_t request = request_of(&path);
-    replay_sink_t sink = {NULL, NULL, refuse_event};
+    replay_sink_t sink = {NULL, NULL, NULL, refuse_event};
     ck_assert(!replay_run(&request, &sink, &result.facts, &result.failure));
     ck_assert_str_eq(result.failure.text, "enough");
     ck_assert_uint_le(result.facts.strides, 1u);
@@ -316,7 +339,7 @@ START_TEST(settings_the_library_does_not_take_are_told)
 {
     const char *const path = write_walk(&bend, "walk.csv", "");
     replay_request_t request = request_of(&path);
-    replay_sink_t sink = {NULL, NULL, NULL};
+    replay_sink_t sink = {NULL, NULL, NULL, NULL};
     request.settings.foot.zupt_ekf.sigma_zupt_mps = INSOLE_R(-1.0);
     ck_assert(!replay_run(&request, &sink, &result.facts, &result.failure));
     ck_assert_str_eq(result.failure.text, "insole: the tracker does not take these settings");
@@ -379,6 +402,7 @@ Suite *insole_suite(void)
     suite_add(suite, "events", strides_and_stances_are_told);
     suite_add(suite, "start", a_start_in_the_log_is_used);
     suite_add(suite, "start from outside", a_start_from_outside_replaces_that_of_the_log);
+    suite_add(suite, "late start", what_was_before_the_start_is_not_drawn);
     suite_add(suite, "truth", truth_does_not_reach_the_tracker);
     suite_add(suite, "same bits", replays_give_the_same_bits);
     suite_add(suite, "prefix law", rows_of_a_cut_log_are_those_of_the_whole);

@@ -88,7 +88,7 @@ static bool take_session(const arguments_t *arguments, const char *path, pairs_t
 {
     replay_request_t request;
     replay_facts_t facts;
-    replay_sink_t sink = {pairs, NULL, keep_stride};
+    replay_sink_t sink = {pairs, NULL, NULL, keep_stride};
     memset(&request, 0, sizeof request);
     request.logs = &path;
     request.log_count = 1u;

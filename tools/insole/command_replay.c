@@ -21,6 +21,7 @@ typedef struct {
     replay_request_t request;
     replay_facts_t facts;
     scoring_t scoring;
+    track_format_t format;
     track_writer_t writer;
     FILE *events;
     bool is_live;    /* a pipe is being followed: each row leaves at once */
@@ -83,16 +84,6 @@ static bool check_outputs(const job_t *job, const session_t *session, failure_t 
     return true;
 }
 
-/* Opens the logs once before anything is written: a misspelt name must not cost a good track. */
-static bool check_files(const job_t *job, failure_t *failure)
-{
-    session_t session;
-    bool is_good = session_open(&session, job->request.logs, job->request.log_count, failure) &&
-                   check_outputs(job, &session, failure);
-    session_close(&session);
-    return is_good;
-}
-
 static bool reads_stdin(const arguments_t *arguments)
 {
     for (size_t i = 0u; i < arguments->operand_count; i++) {
@@ -103,30 +94,28 @@ static bool reads_stdin(const arguments_t *arguments)
     return false;
 }
 
-static bool parse(job_t *job, track_format_t *format, failure_t *failure)
+static bool parse(job_t *job, failure_t *failure)
 {
     const arguments_t *arguments = job->arguments;
     const char *method = options_value(arguments, "method");
-    const char *format_name = options_value(arguments, "format");
-    *format = TRACK_CSV;
-    return replay_options_parse(arguments, &job->request, failure) &&
-           options_number(arguments, "rate", 0.0, 1000.0, &job->request.rate_hz, failure) &&
-           (method == NULL || replay_options_method(&job->request, method, failure)) &&
-           (format_name == NULL || track_format_parse(format_name, format, failure)) &&
-           scoring_begin(&job->scoring, arguments, failure);
-}
-
-static bool begin(job_t *job, failure_t *failure)
-{
-    const arguments_t *arguments = job->arguments;
-    track_format_t format;
-    if (!parse(job, &format, failure) || !check_files(job, failure)) {
-        return false;
-    }
+    const char *format = options_value(arguments, "format");
     job->is_live = reads_stdin(arguments);
     job->keeps_rows =
         !job->is_live || options_has(arguments, "plot") || options_has(arguments, "truth");
-    if (!track_writer_open(&job->writer, options_value(arguments, "out"), format, job->is_live,
+    return replay_options_parse(arguments, &job->request, failure) &&
+           options_number(arguments, "rate", 0.0, 1000.0, &job->request.rate_hz, failure) &&
+           (method == NULL || replay_options_method(&job->request, method, failure)) &&
+           (format == NULL || track_format_parse(format, &job->format, failure)) &&
+           scoring_begin(&job->scoring, arguments, failure);
+}
+
+/* The logs are there: a misspelt name of one has not cost an older track. */
+static bool open_files(void *context, const session_t *session, failure_t *failure)
+{
+    job_t *job = context;
+    const arguments_t *arguments = job->arguments;
+    if (!check_outputs(job, session, failure) ||
+        !track_writer_open(&job->writer, options_value(arguments, "out"), job->format, job->is_live,
                            failure) ||
         !output_open(&job->events, options_value(arguments, "events"), failure)) {
         return false;
@@ -170,7 +159,7 @@ static void describe(const summary_t *summary, char *text, size_t room)
     }
 }
 
-static bool draw(job_t *job, const summary_t *summary, failure_t *failure)
+static bool draw(const job_t *job, const summary_t *summary, failure_t *failure)
 {
     const char *path = options_value(job->arguments, "plot");
     const char *name = "track";
@@ -178,17 +167,17 @@ static bool draw(job_t *job, const summary_t *summary, failure_t *failure)
     if (path == NULL) {
         return true;
     }
-    for (size_t i = 0u; summary->score != NULL && i < job->rows.count; i++) {
-        score_move(&summary->score->motion, &job->rows.rows[i]);
-    }
+    track_t rows = scoring_drawn(&job->facts, &job->rows, summary->score);
     describe(summary, subtitle, sizeof subtitle);
     plot_t plot = {base_name(job->arguments->operands[0]),
                    subtitle,
-                   &job->rows,
+                   &rows,
                    &name,
                    1u,
                    summary->score != NULL ? &job->scoring.truth : NULL};
-    return plot_write(&plot, path, failure);
+    bool is_good = plot_write(&plot, path, failure);
+    track_free(&rows);
+    return is_good;
 }
 
 static bool report(job_t *job, failure_t *failure)
@@ -216,11 +205,8 @@ static bool run(const arguments_t *arguments, failure_t *failure)
     job_t job;
     memset(&job, 0, sizeof job);
     job.arguments = arguments;
-    bool is_good = begin(&job, failure);
-    if (is_good) {
-        replay_sink_t sink = {&job, take_row, take_event};
-        is_good = replay_run(&job.request, &sink, &job.facts, failure);
-    }
+    const replay_sink_t sink = {&job, open_files, take_row, take_event};
+    bool is_good = parse(&job, failure) && replay_run(&job.request, &sink, &job.facts, failure);
     is_good = close_files(&job, is_good, failure);
     is_good = is_good && report(&job, failure);
     track_free(&job.rows);

@@ -61,6 +61,7 @@ static bool drain(run_t *run, failure_t *failure)
 
 static void tell_start(run_t *run, const record_t *start)
 {
+    run->facts->start_us = run->facts->knows_place ? run->facts->start_us : start->t_us;
     run->facts->knows_place = true;
     run->facts->knows_heading = run->facts->knows_heading || !isnan(start->value[2]);
     estimator_push(&run->estimator, start);
@@ -120,6 +121,15 @@ static bool run_stream(run_t *run, failure_t *failure)
     return drain(run, failure);
 }
 
+static bool open_stream(run_t *run, failure_t *failure)
+{
+    const replay_request_t *request = run->request;
+    return sensor_stream_open(&run->stream, request->logs, request->log_count, request->accel_unit,
+                              request->gyro_unit, failure) &&
+           (run->sink->begin == NULL ||
+            run->sink->begin(run->sink->context, &run->stream.session, failure));
+}
+
 static void gather_facts(run_t *run)
 {
     const insole_foot_tracker_t *foot = &run->estimator.foot;
@@ -141,10 +151,7 @@ bool replay_run(const replay_request_t *request, const replay_sink_t *sink, repl
     row_maker_init(&run->rows, request->rate_hz);
     bool is_good = estimator_init(&run->estimator, &request->settings) ||
                    failure_input(failure, "insole: the tracker does not take these settings");
-    is_good = is_good &&
-              sensor_stream_open(&run->stream, request->logs, request->log_count,
-                                 request->accel_unit, request->gyro_unit, failure) &&
-              run_stream(run, failure);
+    is_good = is_good && open_stream(run, failure) && run_stream(run, failure);
     gather_facts(run);
     sensor_stream_close(&run->stream);
     free(run);

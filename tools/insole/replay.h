@@ -23,6 +23,8 @@ typedef struct {
 /** Where the results go; a NULL function is not called. Each answers false to stop. */
 typedef struct {
     void *context;
+    /** The logs are open, nothing has been read: the time to open what will be written. */
+    bool (*begin)(void *context, const session_t *session, failure_t *failure);
     bool (*row)(void *context, const track_row_t *row, failure_t *failure);
     bool (*event)(void *context, const foot_event_t *event, failure_t *failure);
 } replay_sink_t;
@@ -36,6 +38,7 @@ typedef struct {
     double walked_m;                 /**< sum of the strides */
     double fastest_radps;            /**< largest turn rate */
     bool knows_place, knows_heading; /**< by a start */
+    int64_t start_us;                /**< of the first start: what was before is not on the map */
     track_row_t last;                /**< fix */
     insole_screen_counts_t screen;
     insole_foot_counts_t foot;
