@@ -55,8 +55,7 @@ static const char *order_of(const char *const *texts, size_t count)
 
 START_TEST(logs_are_merged_by_time)
 {
-    const char *const texts[] = {"t,ax,ay,az,gx,gy,gz\n0,0,0,9,0,0,0\n0.02,0,0,9,0,0,0\n"
-                                 "0.04,0,0,9,0,0,0\n",
+    const char *const texts[] = {"t,ax,ay,az,gx,gy,gz\n0,0,0,9,0,0,0\n0.02,0,0,9,0,0,0\n0.04,0,0,9,0,0,0\n",
                                  "rss,0.01,a,-70\nrss,0.03,a,-70\n",
                                  "t,x,y\n-0.5,1,2\n0.05,1,2\n"};
     ck_assert_str_eq(order_of(texts, 3u), "-500t 0i 10r 20i 30r 40i 50t");
@@ -83,8 +82,7 @@ END_TEST
 
 START_TEST(a_wild_stamp_does_not_hold_back_a_log)
 {
-    const char *const texts[] = {"imu,1,0,0,9,0,0,0\nimu,99999,0,0,9,0,0,0\nimu,3,0,0,9,0,0,0\n"
-                                 "imu,4,0,0,9,0,0,0\n",
+    const char *const texts[] = {"imu,1,0,0,9,0,0,0\nimu,99999,0,0,9,0,0,0\nimu,3,0,0,9,0,0,0\nimu,4,0,0,9,0,0,0\n",
                                  "rss,2,a,-70\nrss,3.5,a,-70\nrss,5,a,-70\n"};
     ck_assert_str_eq(order_of(texts, 2u), "1000i 2000r 99999000i 3000i 3500r 4000i 5000r");
 }

@@ -10,6 +10,7 @@
 #include "memory.h"
 #include "number.h"
 #include "output.h"
+#include "platform.h"
 #include "plot.h"
 #include "replay_options.h"
 #include "score_print.h"
@@ -150,7 +151,7 @@ static bool draw(const contest_t *contest, failure_t *failure)
         drawn[i] = scoring_drawn(&trial->facts, &contest->tracks[i],
                                  trial->has_score ? &trial->score : NULL);
     }
-    plot_t plot = {contest->arguments->operands[0],
+    plot_t plot = {platform_base_name(contest->arguments->operands[0]),
                    has_truth ? score_alignment_text(contest->trials[0].score.alignment) : "",
                    drawn,
                    names,

@@ -139,12 +139,6 @@ static bool close_files(job_t *job, bool is_good, failure_t *failure)
     return is_good && is_closed;
 }
 
-static const char *base_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash != NULL && slash[1] != '\0' ? slash + 1 : path;
-}
-
 static void describe(const summary_t *summary, char *text, size_t room)
 {
     char walked[NUMBER_ROOM], rms[NUMBER_ROOM], end[NUMBER_ROOM];
@@ -169,11 +163,7 @@ static bool draw(const job_t *job, const summary_t *summary, failure_t *failure)
     }
     track_t rows = scoring_drawn(&job->facts, &job->rows, summary->score);
     describe(summary, subtitle, sizeof subtitle);
-    plot_t plot = {base_name(job->arguments->operands[0]),
-                   subtitle,
-                   &rows,
-                   &name,
-                   1u,
+    plot_t plot = {platform_base_name(job->arguments->operands[0]),    subtitle, &rows, &name, 1u,
                    summary->score != NULL ? &job->scoring.truth : NULL};
     bool is_good = plot_write(&plot, path, failure);
     track_free(&rows);

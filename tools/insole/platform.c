@@ -18,6 +18,12 @@ bool platform_is_folder(const char *path)
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
+const char *platform_base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL && slash[1] != '\0' ? slash + 1 : path;
+}
+
 bool platform_is_same_file(const char *a, const char *b)
 {
     struct stat of_a, of_b;

@@ -11,6 +11,9 @@
 
 bool platform_is_folder(const char *path);
 
+/** The last part of a path. */
+const char *platform_base_name(const char *path);
+
 /** Do both paths lead to the same file? */
 bool platform_is_same_file(const char *a, const char *b);
 

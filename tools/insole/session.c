@@ -19,8 +19,7 @@ static bool open_log(session_t *session, const char *path, bool is_from_folder, 
 
 static bool is_no_log(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const char *name = slash != NULL ? slash + 1 : path;
+    const char *name = platform_base_name(path);
     return strcmp(name, "plan.csv") == 0 || strcmp(name, "aps.csv") == 0 ||
            strcmp(name, "radiomap.csv") == 0;
 }
