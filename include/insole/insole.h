@@ -24,6 +24,7 @@
 #include "insole/base/vec3.h"
 #include "insole/move/stride.h"
 #include "insole/move/zupt_ekf.h"
+#include "insole/sense/gyro_clip.h"
 #include "insole/sense/screen.h"
 #include "insole/sense/still_bias.h"
 #include "insole/sense/zero_velocity.h"

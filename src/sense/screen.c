@@ -8,6 +8,9 @@
 static const insole_real_t ACCEL_LIMIT_MPS2 = INSOLE_R(2000.0);
 static const insole_real_t GYRO_LIMIT_RADPS = INSOLE_R(100.0);
 
+/* A later stamp is no time; sums and differences of earlier ones fit into 64 bits. */
+static const uint64_t LATEST_US = (uint64_t)INT64_MAX;
+
 /* A neighbour of a spike lies this much nearer to the other neighbour than to the spike. */
 static const insole_real_t SPIKE_SHARE = INSOLE_R(0.25);
 
@@ -19,13 +22,6 @@ static const insole_real_t CLOCK_PERIOD_GAIN = INSOLE_R(0.0006);
 static const insole_real_t CLOCK_REACH_US = INSOLE_R(30000.0);
 static const insole_real_t BURST_INTERVAL_SHARE = INSOLE_R(0.75);
 static const insole_real_t BURST_WEIGHT = INSOLE_R(0.01);
-
-/* A clipped gyro stays at its top and then falls fast; a swing's own peak is round. */
-static const insole_real_t CLIP_FROM_RADPS = INSOLE_R(7.0);
-static const insole_real_t CLIP_TOP_SHARE = INSOLE_R(0.97);
-static const insole_real_t CLIP_FOOT_SHARE = INSOLE_R(0.8);
-static const insole_real_t CLIP_TOP_US = INSOLE_R(20000.0);
-static const insole_real_t CLIP_TOP_PER_FALL = INSOLE_R(3.0);
 
 const insole_screen_config_t insole_screen_defaults = {INSOLE_SCREEN_KEYS(INSOLE_CONFIG_DEFAULT)};
 
@@ -40,8 +36,7 @@ insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_
     static const insole_screen_t blank;
     *screen = blank;
     screen->config = *config;
-    screen->gyro_range_radps = config->gyro_range_radps;
-    return INSOLE_OK;
+    return insole_gyro_clip_init(&screen->clip, config->gyro_range_radps, config->clip_share);
 }
 
 static insole_real_t seconds(uint64_t from_us, uint64_t to_us)
@@ -85,29 +80,58 @@ static bool repair_fields(insole_screen_t *s, insole_imu_t *imu)
 
 /* ---- stamps ----------------------------------------------------------------------------- */
 
-/* A stamp that does not advance is dropped; but when the sample held back was alone in jumping far
- * ahead, it is the one to go. */
+/* The sample held back was alone in jumping far ahead. */
+static bool has_jumped(const insole_screen_t *s, uint64_t t_us)
+{
+    if (s->held == 1u) { /* the first of all: nothing says that it was right */
+        return !s->has_spare && seconds(t_us, s->raw_us) > s->config.gap_s;
+    }
+    return t_us > s->raw_before_us && seconds(s->raw_before_us, s->raw_us) > s->config.gap_s &&
+           seconds(s->raw_before_us, t_us) <= s->config.gap_s;
+}
+
+/* The stream is again as it was before the sample held back came. */
+static void drop_pending(insole_screen_t *s)
+{
+    s->pending = s->before;
+    s->raw_us = s->raw_before_us;
+    s->last_us = s->before.imu.t_us;
+    s->good_us = s->raw_before_us;
+    s->held--;
+    s->has_spare = s->held > 0u;
+}
+
+/* A stamp that does not advance is dropped, or else the one that it follows. */
 static bool is_in_time(insole_screen_t *s, uint64_t t_us)
 {
-    if (s->held == 0u || t_us > s->last_us) {
-        return true;
-    }
-    bool jumped = s->held == 2u && t_us > s->before.imu.t_us &&
-                  seconds(s->before.imu.t_us, s->pending.imu.t_us) > s->config.gap_s &&
-                  seconds(s->before.imu.t_us, t_us) <= s->config.gap_s;
-    if (jumped) {
+    if (t_us > LATEST_US) {
         s->counts.wild++;
-        s->pending = s->before;
-        s->held = 1u;
-        s->has_spare = true;
+        return false;
+    }
+    if (s->held == 0u || t_us > s->raw_us) {
         return true;
     }
-    if (t_us == s->last_us) {
+    if (has_jumped(s, t_us)) {
+        s->counts.wild++;
+        drop_pending(s);
+        return true;
+    }
+    if (t_us == s->raw_us) {
         s->counts.repeated++;
     } else {
         s->counts.backward++;
+        s->back_run++;
     }
     return false;
+}
+
+/* Nothing is known of the time since the sample before: no sample came, or a run of them was
+ * dropped because the clock had been put back. */
+static bool is_after_gap(const insole_screen_t *s, uint64_t t_us)
+{
+    insole_real_t dropped_s = (insole_real_t)s->back_run * s->clock.period_us * INSOLE_R(1.0e-6);
+    return s->held > 0u &&
+           (seconds(s->raw_us, t_us) > s->config.gap_s || dropped_s > s->config.gap_s);
 }
 
 /* ---- bursts ----------------------------------------------------------------------------- */
@@ -140,27 +164,35 @@ static void learn_period(insole_even_clock_t *clock, uint32_t dt_us)
     }
 }
 
-/* The stamp to use: the raw one, or that of the sensor's clock while stamps come in bursts. */
-static uint64_t even_stamp(insole_screen_t *s, uint64_t t_us)
+/* What the even stamp adds to the raw one: nothing unless stamps come in bursts. */
+static int32_t even_lead_us(insole_screen_t *s, uint32_t dt_us, bool after_gap)
 {
     insole_even_clock_t *clock = &s->clock;
-    uint64_t dt_us = t_us - s->raw_us;
-    s->raw_us = t_us;
-    if (s->held == 0u || seconds(0u, dt_us) > s->config.gap_s) {
+    if (after_gap) {
         clock->lead_us = ZERO;
-        return t_us;
+        return 0;
     }
     if (!(clock->period_us > ZERO)) {
-        learn_period(clock, (uint32_t)dt_us);
-        return t_us;
+        learn_period(clock, dt_us);
+        return 0;
     }
-    tick(clock, (insole_real_t)(uint32_t)dt_us);
+    tick(clock, (insole_real_t)dt_us);
     if (clock->burst_share < s->config.burst_share) {
-        return t_us;
+        return 0;
     }
     s->counts.evened++;
-    int64_t even_us = (int64_t)t_us + (int32_t)clock->lead_us; /* at most CLOCK_REACH_US */
-    return even_us > (int64_t)s->last_us ? (uint64_t)even_us : s->last_us + 1u;
+    return (int32_t)clock->lead_us; /* at most CLOCK_REACH_US */
+}
+
+/* The stamp to use; always later than the one before. */
+static uint64_t even_stamp(insole_screen_t *s, uint64_t t_us, bool after_gap)
+{
+    if (s->held == 0u) {
+        return t_us;
+    }
+    int64_t dt_us = (int64_t)(t_us - s->last_us);
+    dt_us += even_lead_us(s, (uint32_t)(t_us - s->raw_us), after_gap);
+    return s->last_us + (dt_us > 0 ? (uint64_t)dt_us : 1u);
 }
 
 /* ---- spikes ----------------------------------------------------------------------------- */
@@ -203,69 +235,14 @@ static void mend(insole_screen_t *s, const insole_imu_t *after)
 
 /* ---- clipping --------------------------------------------------------------------------- */
 
-/* Share of the interval from `last` down or up to `size` that lies on the far side of `level`. */
-static insole_real_t share_beyond(insole_real_t level, insole_real_t inside, insole_real_t outside)
+static uint8_t clip_marks(insole_screen_t *s, const insole_imu_t *imu, bool after_gap)
 {
-    insole_real_t span = inside - outside;
-    return span > ZERO ? insole_min((inside - level) / span, ONE) : ONE;
-}
-
-/* Time spent near the top and on the way down from it, up to the crossing of the foot. */
-static void time_excursion(insole_clip_t *clip, insole_real_t size, insole_real_t dt_us)
-{
-    insole_real_t high = CLIP_TOP_SHARE * clip->top_radps, low = CLIP_FOOT_SHARE * clip->top_radps;
-    if (size >= high) {
-        clip->top_us += dt_us + clip->fall_us;
-        clip->fall_us = ZERO;
-        return;
-    }
-    insole_real_t near =
-        clip->last_radps >= high ? share_beyond(high, clip->last_radps, size) : ZERO;
-    insole_real_t above = size >= low ? ONE : share_beyond(low, clip->last_radps, size);
-    clip->top_us += near * dt_us;
-    clip->fall_us += (above - near) * dt_us;
-}
-
-/* Follows one excursion of one axis; true when it turns out to have been cut off. */
-static bool was_cut_off(insole_clip_t *clip, insole_real_t size, insole_real_t dt_us)
-{
-    bool cut = false;
-    if (size > insole_max(clip->top_radps / CLIP_TOP_SHARE, CLIP_FROM_RADPS)) {
-        clip->top_radps = size;
-        clip->top_us = dt_us * share_beyond(CLIP_TOP_SHARE * size, size, clip->last_radps);
-        clip->fall_us = ZERO;
-    } else if (clip->top_radps > ZERO) {
-        time_excursion(clip, size, dt_us);
-        if (size < CLIP_FOOT_SHARE * clip->top_radps) {
-            cut = clip->top_us >= CLIP_TOP_US && clip->top_us >= CLIP_TOP_PER_FALL * clip->fall_us;
-            clip->top_radps = ZERO;
-        }
-    }
-    clip->last_radps = size;
-    return cut;
-}
-
-static bool is_clipped(insole_screen_t *s, uint32_t axis, insole_real_t w, insole_real_t dt_us)
-{
-    insole_clip_t *clip = &s->clip[axis];
-    insole_real_t size = insole_abs(w), top = clip->top_radps;
-    if (was_cut_off(clip, size, dt_us) && !(s->config.gyro_range_radps > ZERO)) {
-        bool first = !(s->gyro_range_radps > ZERO);
-        s->gyro_range_radps = first ? top : insole_min(top, s->gyro_range_radps);
-    }
-    return s->gyro_range_radps > ZERO && size >= s->config.clip_share * s->gyro_range_radps;
-}
-
-static uint8_t clip_marks(insole_screen_t *s, const insole_imu_t *imu)
-{
-    insole_real_t dt_us = s->held > 0u ? (insole_real_t)(imu->t_us - s->last_us) : ZERO;
-    insole_vec3_t w = imu->gyro_radps;
-    uint8_t marks = 0u;
-    marks |= is_clipped(s, 0u, w.x, dt_us) ? INSOLE_MARK_CLIP_X : 0u;
-    marks |= is_clipped(s, 1u, w.y, dt_us) ? INSOLE_MARK_CLIP_Y : 0u;
-    marks |= is_clipped(s, 2u, w.z, dt_us) ? INSOLE_MARK_CLIP_Z : 0u;
-    s->counts.clipped += marks != 0u ? 1u : 0u;
-    return marks;
+    bool known = s->held > 0u && !after_gap;
+    insole_real_t dt_us = known ? (insole_real_t)(imu->t_us - s->last_us) : ZERO;
+    uint8_t axes = 0u;
+    (void)insole_gyro_clip_push(&s->clip, imu->gyro_radps, dt_us, &axes);
+    s->counts.clipped += axes != 0u ? 1u : 0u;
+    return axes;
 }
 
 /* ---- averaging -------------------------------------------------------------------------- */
@@ -295,6 +272,16 @@ static insole_status_t give(insole_screen_t *s, const insole_clean_t *c, insole_
     return INSOLE_OK;
 }
 
+static insole_status_t give_mean(insole_screen_t *s, uint64_t t_us, insole_clean_t *clean)
+{
+    insole_real_t per_s = ONE / s->sum_s;
+    insole_clean_t mean = {
+        {t_us, insole_vec3_scale(s->sum_accel, per_s), insole_vec3_scale(s->sum_gyro, per_s)},
+        s->sum_marks};
+    sum_clear(s);
+    return give(s, &mean, clean);
+}
+
 /* A sample on its way out, alone or as the last of those that fill the shortest interval. */
 static insole_status_t average(insole_screen_t *s, const insole_clean_t *c, insole_clean_t *clean)
 {
@@ -309,12 +296,7 @@ static insole_status_t average(insole_screen_t *s, const insole_clean_t *c, inso
         s->counts.averaged++;
         return INSOLE_ERR_STATE;
     }
-    insole_real_t per_s = ONE / s->sum_s;
-    insole_clean_t mean = {{c->imu.t_us, insole_vec3_scale(s->sum_accel, per_s),
-                            insole_vec3_scale(s->sum_gyro, per_s)},
-                           s->sum_marks};
-    sum_clear(s);
-    return give(s, &mean, clean);
+    return give_mean(s, c->imu.t_us, clean);
 }
 
 /* ---- the stream ------------------------------------------------------------------------- */
@@ -326,7 +308,18 @@ static insole_status_t release(insole_screen_t *s, insole_clean_t *clean)
         s->has_spare = false;
         return INSOLE_ERR_STATE;
     }
+    s->counts.gaps += (s->before.marks & INSOLE_MARK_GAP) != 0u ? 1u : 0u;
     return average(s, &s->before, clean);
+}
+
+static void take_in(insole_screen_t *s, const insole_clean_t *next, uint64_t raw_us)
+{
+    s->pending = *next;
+    s->last_us = next->imu.t_us;
+    s->raw_before_us = s->raw_us;
+    s->raw_us = raw_us;
+    s->back_run = 0u;
+    s->held = s->held > 0u ? 2u : 1u;
 }
 
 insole_status_t insole_screen_push(insole_screen_t *screen, const insole_imu_t *raw,
@@ -337,20 +330,20 @@ insole_status_t insole_screen_push(insole_screen_t *screen, const insole_imu_t *
     }
     insole_screen_t *s = screen;
     insole_clean_t next = {*raw, 0u};
+    if (s->finished) {
+        return INSOLE_ERR_STATE;
+    }
     s->counts.samples++;
     if (!is_in_time(s, raw->t_us) || !repair_fields(s, &next.imu)) {
         return INSOLE_ERR_STATE;
     }
-    next.imu.t_us = even_stamp(s, raw->t_us);
-    next.marks = clip_marks(s, &next.imu);
-    if (s->held > 0u && seconds(s->pending.imu.t_us, next.imu.t_us) > s->config.gap_s) {
-        next.marks |= INSOLE_MARK_GAP;
-    }
+    bool after_gap = is_after_gap(s, raw->t_us);
+    next.imu.t_us = even_stamp(s, raw->t_us, after_gap);
+    next.marks = clip_marks(s, &next.imu, after_gap);
+    next.marks |= after_gap ? INSOLE_MARK_GAP : 0u;
     mend(s, &next.imu);
     insole_status_t status = s->held > 0u ? release(s, clean) : INSOLE_ERR_STATE;
-    s->pending = next;
-    s->last_us = next.imu.t_us;
-    s->held = s->held > 0u ? 2u : 1u;
+    take_in(s, &next, raw->t_us);
     return status;
 }
 
@@ -359,9 +352,13 @@ insole_status_t insole_screen_finish(insole_screen_t *screen, insole_clean_t *cl
     if (!screen || !clean) {
         return INSOLE_ERR_NULL;
     }
-    if (screen->held == 0u) {
-        return INSOLE_ERR_STATE;
+    insole_screen_t *s = screen;
+    s->finished = true;
+    if (s->held > 0u) {
+        s->held = 0u;
+        if (release(s, clean) == INSOLE_OK) {
+            return INSOLE_OK;
+        }
     }
-    screen->held = 0u;
-    return release(screen, clean);
+    return s->sum_count > 0u ? give_mean(s, s->before.imu.t_us, clean) : INSOLE_ERR_STATE;
 }

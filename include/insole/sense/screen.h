@@ -1,6 +1,7 @@
 /** @file screen.h  Repairs and counts bad samples before anything else sees them.
  *
- *  Handled: stamps that repeat or go back, a single wild stamp, fields that are not a number,
+ *  Handled: stamps that repeat or go back, a single wild stamp (two in a row are believed), fields
+ *  that are not a number,
  *  values no foot can produce, single-sample spikes, gyros at the end of their range, gaps, stamps
  *  that tell when a burst was read and not when it was sampled, and rates above `max_rate_hz`
  *  (averaged down: a mean keeps what a pick would lose).
@@ -19,6 +20,7 @@
 
 #include "insole/base/config.h"
 #include "insole/base/types.h"
+#include "insole/sense/gyro_clip.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -52,7 +54,7 @@ typedef struct {
     uint32_t samples;    /**< came in */
     uint32_t repeated;   /**< same stamp as before: dropped */
     uint32_t backward;   /**< stamp before the last one: dropped */
-    uint32_t wild;       /**< single stamp far ahead: dropped */
+    uint32_t wild;       /**< single stamp far ahead, or beyond 2^63: dropped */
     uint32_t not_finite; /**< a field not a number or beyond all reason: held or dropped */
     uint32_t spikes;     /**< single-sample spikes replaced by the mean of their neighbours */
     uint32_t clipped;    /**< samples with a gyro axis at the end of its range */
@@ -63,10 +65,7 @@ typedef struct {
 
 /** Bits of insole_clean_t.marks. */
 enum {
-    INSOLE_MARK_CLIP_X = 1,
-    INSOLE_MARK_CLIP_Y = 2,
-    INSOLE_MARK_CLIP_Z = 4,
-    INSOLE_MARK_CLIP = 7,
+    INSOLE_MARK_CLIP = 7, /**< one bit per axis of the gyro, x the lowest: at the end of its range */
     INSOLE_MARK_GAP = 8 /**< nothing is known of the time since the sample before */
 };
 
@@ -75,13 +74,6 @@ typedef struct {
     insole_imu_t imu;
     uint8_t marks;
 } insole_clean_t;
-
-/** The present excursion of one gyro axis: how long near its top, how long on its way down. */
-typedef struct {
-    insole_real_t top_radps;  /**< of the excursion; 0 = there is none */
-    insole_real_t last_radps; /**< size of the sample before */
-    insole_real_t top_us, fall_us;
-} insole_clip_t;
 
 /** The sensor's own clock, followed through the jitter of the stamps. */
 typedef struct {
@@ -95,20 +87,20 @@ typedef struct {
     insole_screen_config_t config;
     insole_screen_counts_t counts;
     insole_even_clock_t clock;
-    uint64_t raw_us;                /**< stamp of the last sample as it came */
     insole_clean_t before, pending; /**< `pending` waits for its successor */
+    uint64_t raw_before_us, raw_us; /**< their stamps as they came */
+    uint32_t back_run;              /**< samples dropped in a row, their stamps going back */
     uint32_t held;                  /**< of these two, how many there are */
     bool has_spare;                 /**< `pending` has gone out already */
-    uint64_t last_us;               /**< stamp of the last sample taken in */
+    uint64_t last_us;               /**< stamp given to the last sample taken in */
     uint64_t good_us;               /**< stamp of the last sample without a bad field */
-    insole_clip_t clip[3];
-    insole_real_t gyro_range_radps;    /**< told, or the least top that was cut off; 0 = none yet */
+    insole_gyro_clip_t clip;
     insole_vec3_t sum_accel, sum_gyro; /**< of the samples being averaged, weighted by time */
     insole_real_t sum_s;
     uint8_t sum_marks;
     uint32_t sum_count;
     uint64_t out_us; /**< stamp of the last clean sample */
-    bool has_out;
+    bool has_out, finished;
 } insole_screen_t;
 
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
@@ -119,7 +111,8 @@ insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_
 insole_status_t insole_screen_push(insole_screen_t *screen, const insole_imu_t *raw,
                                    insole_clean_t *clean);
 
-/** The sample that was held back; call until it answers INSOLE_ERR_STATE. */
+/** The sample that was held back, and what waits to be averaged; call until it answers
+ *  INSOLE_ERR_STATE. Samples that are pushed later are ignored. */
 insole_status_t insole_screen_finish(insole_screen_t *screen, insole_clean_t *clean);
 
 #ifdef __cplusplus

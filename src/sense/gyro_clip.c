@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/sense/gyro_clip.h"
+
+#define ZERO INSOLE_R(0.0)
+#define ONE  INSOLE_R(1.0)
+
+/* No gyro for people has a wider range. */
+static const insole_real_t WIDEST_RADPS = INSOLE_R(100.0);
+static const insole_real_t LEAST_SHARE = INSOLE_R(0.5);
+
+/* A peak counts from this size on; it is near its top above the one share of it and has fallen
+ * below the other. Cut off is one that stays for so long, and so many times as long as it falls. */
+static const insole_real_t PEAK_FROM_RADPS = INSOLE_R(7.0);
+static const insole_real_t TOP_SHARE = INSOLE_R(0.97);
+static const insole_real_t FOOT_SHARE = INSOLE_R(0.8);
+static const insole_real_t LEAST_TOP_US = INSOLE_R(20000.0);
+static const insole_real_t TOP_PER_FALL = INSOLE_R(3.0);
+
+insole_status_t insole_gyro_clip_init(insole_gyro_clip_t *clip, insole_real_t range_radps,
+                                      insole_real_t share)
+{
+    if (!clip) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!(range_radps >= ZERO && range_radps <= WIDEST_RADPS && share >= LEAST_SHARE &&
+          share <= ONE)) {
+        return INSOLE_ERR_VALUE;
+    }
+    static const insole_gyro_clip_t blank;
+    *clip = blank;
+    clip->told_radps = clip->range_radps = range_radps;
+    clip->share = share;
+    return INSOLE_OK;
+}
+
+/* Share of an interval that lies above `level`, which is crossed on the way from `high` to `low`,
+ * up or down. */
+static insole_real_t share_above(insole_real_t level, insole_real_t high, insole_real_t low)
+{
+    insole_real_t span = high - low;
+    return span > ZERO ? insole_min((high - level) / span, ONE) : ONE;
+}
+
+/* Time spent near the top and on the way down from it, up to the crossing of the foot. */
+static void time_peak(insole_clip_peak_t *peak, insole_real_t size, insole_real_t dt_us)
+{
+    insole_real_t top = TOP_SHARE * peak->top_radps, foot = FOOT_SHARE * peak->top_radps;
+    insole_real_t last = peak->last_radps;
+    if (size >= top) {
+        peak->top_us += dt_us + peak->fall_us;
+        peak->fall_us = ZERO;
+        return;
+    }
+    insole_real_t near_top = last >= top ? share_above(top, last, size) : ZERO;
+    insole_real_t above_foot = size >= foot ? ONE : share_above(foot, last, size);
+    peak->top_us += near_top * dt_us;
+    peak->fall_us += (above_foot - near_top) * dt_us;
+}
+
+/* Follows one axis; true when the peak that it comes down from turns out to have been cut off. */
+static bool was_cut_off(insole_clip_peak_t *peak, insole_real_t size, insole_real_t dt_us)
+{
+    bool cut = false;
+    if (size > insole_max(peak->top_radps / TOP_SHARE, PEAK_FROM_RADPS)) {
+        peak->top_radps = size;
+        peak->top_us = dt_us * share_above(TOP_SHARE * size, size, peak->last_radps);
+        peak->fall_us = ZERO;
+    } else if (peak->top_radps > ZERO) {
+        time_peak(peak, size, dt_us);
+        if (size < FOOT_SHARE * peak->top_radps) {
+            cut = peak->top_us >= LEAST_TOP_US && peak->top_us >= TOP_PER_FALL * peak->fall_us;
+            peak->top_radps = ZERO;
+        }
+    }
+    peak->last_radps = size;
+    return cut;
+}
+
+static bool is_clipped(insole_gyro_clip_t *clip, uint32_t axis, insole_real_t rate,
+                       insole_real_t dt_us)
+{
+    insole_clip_peak_t *peak = &clip->peak[axis];
+    insole_real_t size = insole_abs(rate), top = peak->top_radps;
+    if (was_cut_off(peak, size, dt_us) && !(clip->told_radps > ZERO)) {
+        bool first = !(clip->range_radps > ZERO);
+        clip->range_radps = first ? top : insole_min(top, clip->range_radps);
+    }
+    return clip->range_radps > ZERO && size >= clip->share * clip->range_radps;
+}
+
+insole_status_t insole_gyro_clip_push(insole_gyro_clip_t *clip, insole_vec3_t gyro_radps,
+                                      insole_real_t dt_us, uint8_t *axes)
+{
+    if (!clip || !axes) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!insole_vec3_is_finite(gyro_radps) || !(dt_us >= ZERO) || !insole_is_finite(dt_us)) {
+        return INSOLE_ERR_VALUE;
+    }
+    if (!(dt_us > ZERO)) {
+        static const insole_clip_peak_t none;
+        clip->peak[0] = clip->peak[1] = clip->peak[2] = none;
+    }
+    bool x = is_clipped(clip, 0u, gyro_radps.x, dt_us);
+    bool y = is_clipped(clip, 1u, gyro_radps.y, dt_us);
+    bool z = is_clipped(clip, 2u, gyro_radps.z, dt_us);
+    *axes = (uint8_t)((x ? 1u : 0u) | (y ? 2u : 0u) | (z ? 4u : 0u));
+    return INSOLE_OK;
+}
