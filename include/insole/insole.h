@@ -27,6 +27,7 @@
 #include "insole/sense/gyro_clip.h"
 #include "insole/sense/screen.h"
 #include "insole/sense/still_bias.h"
+#include "insole/sense/still_window.h"
 #include "insole/sense/zero_velocity.h"
 #include "insole/track/foot_tracker.h"
 

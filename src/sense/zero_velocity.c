@@ -8,8 +8,7 @@
 
 enum {
     RATE_SAMPLES = 16, /* samples from which the window's length is found */
-    CATCH_UP = 2,      /* windows formed per push at most */
-    LONGEST_HALF = INSOLE_STANCE_WINDOW / 2,
+    LONGEST_HALF = INSOLE_STILL_WINDOW / 2,
     LABEL_STILL = 1,
     LABEL_PLAIN = 2
 };
@@ -64,46 +63,12 @@ static insole_real_t seconds(uint32_t from_us, uint32_t to_us)
 
 /* ---- the statistic ---------------------------------------------------------------------- */
 
-static void sums_add(insole_stance_sums_t *sums, const insole_stance_slot_t *s, insole_real_t sign)
-{
-    insole_real_t accel2 = insole_vec3_norm2(s->accel_mps2);
-    sums->accel = insole_vec3_add_scaled(sums->accel, sign, s->accel_mps2);
-    sums->accel2 += sign * accel2;
-    sums->accel_norm += sign * insole_sqrt(accel2);
-    sums->gyro2 += sign * insole_vec3_norm2(s->gyro_radps);
-}
-
-/* The sample as such, in units of the two thresholds: still below 1. Step one of [TwoOrder] 4.3. */
-static insole_real_t two_step_statistic(const insole_zero_velocity_config_t *c,
-                                        const insole_stance_slot_t *s)
-{
-    insole_real_t accel = insole_abs(insole_vec3_norm(s->accel_mps2) - c->gravity_mps2);
-    insole_real_t gyro = insole_vec3_norm(s->gyro_radps);
-    return insole_max(accel / c->two_step_accel_mps2, gyro / c->two_step_gyro_radps);
-}
-
-static insole_real_t window_statistic(const insole_zero_velocity_config_t *c,
-                                      const insole_stance_sums_t *sums, insole_real_t per_n)
-{
-    insole_real_t g = c->gravity_mps2;
-    insole_real_t accel2 = sums->accel2 * per_n;
-    insole_real_t gyro = sums->gyro2 * per_n / insole_square(c->sigma_gyro_radps);
-    insole_real_t per_var = ONE / insole_square(c->sigma_accel_mps2);
-    insole_real_t mean2 = insole_vec3_norm2(sums->accel) * insole_square(per_n);
-    switch ((insole_detector_t)c->detector) {
-    case INSOLE_DETECT_MV:
-        return (accel2 - mean2) * per_var;
-    case INSOLE_DETECT_MAG:
-        return (accel2 - INSOLE_R(2.0) * g * sums->accel_norm * per_n + g * g) * per_var;
-    case INSOLE_DETECT_ARE:
-        return gyro;
-    default:
-        return (accel2 - INSOLE_R(2.0) * g * insole_sqrt(mean2) + g * g) * per_var + gyro;
-    }
-}
+/* Of each detector; the two-step logic needs none, but out it goes. */
+static const insole_still_kind_t KIND[] = {INSOLE_STILL_SHOE, INSOLE_STILL_SHOE, INSOLE_STILL_SHOE,
+                                           INSOLE_STILL_MV,   INSOLE_STILL_MAG,  INSOLE_STILL_ARE};
 
 /* Half window from the mean interval of the first samples; gaps among them do not count. */
-static void learn_window(insole_zero_velocity_t *zv)
+static uint32_t learn_half(insole_zero_velocity_t *zv)
 {
     uint32_t sum_us = 0u, intervals = 0u;
     for (uint32_t i = 1u; i < insole_ring_count(&zv->ring); i++) {
@@ -120,59 +85,40 @@ static void learn_window(insole_zero_velocity_t *zv)
         half = INSOLE_R(0.5) * zv->config.window_s / dt_s;
     }
     half = insole_min(insole_max(half, ONE), (insole_real_t)LONGEST_HALF);
-    zv->half = (uint32_t)(half + INSOLE_R(0.001));
+    return (uint32_t)(half + INSOLE_R(0.001));
 }
 
-/* First window: its statistic serves the samples before its middle as well. */
-static void measure_first(insole_zero_velocity_t *zv)
+static void open_window(insole_zero_velocity_t *zv)
 {
-    uint32_t width = 2u * zv->half + 1u;
-    for (uint32_t i = 0u; i < width; i++) {
-        sums_add(&zv->sums, slot(zv, zv->ring.begin + i), ONE);
-    }
-    insole_real_t T = window_statistic(&zv->config, &zv->sums, ONE / (insole_real_t)width);
-    for (uint32_t i = 0u; i <= zv->half; i++) {
-        slot(zv, zv->ring.begin + i)->statistic = T;
-    }
-    zv->measured = zv->ring.begin + zv->half + 1u;
-    zv->has_window = true;
+    const insole_zero_velocity_config_t *c = &zv->config;
+    insole_still_scale_t scale = {KIND[c->detector], c->gravity_mps2, c->sigma_accel_mps2,
+                                  c->sigma_gyro_radps};
+    zv->half = learn_half(zv);
+    (void)insole_still_window_init(&zv->window, &scale, 2u * zv->half + 1u);
 }
 
-/* The window moves on by one sample. */
+/* The window moves on; the first that is full serves the samples before its middle as well. */
 static void measure_next(insole_zero_velocity_t *zv)
 {
-    uint32_t width = 2u * zv->half + 1u;
-    const insole_stance_slot_t *arriving = slot(zv, zv->measured + zv->half);
-    const insole_stance_slot_t *leaving = slot(zv, zv->measured - zv->half - 1u);
-    sums_add(&zv->fresh, arriving, ONE);
-    if (++zv->fresh_count == width) {
-        static const insole_stance_sums_t none;
-        zv->sums = zv->fresh;
-        zv->fresh = none;
-        zv->fresh_count = 0u;
-    } else {
-        sums_add(&zv->sums, arriving, ONE);
-        sums_add(&zv->sums, leaving, -ONE);
+    insole_real_t statistic;
+    const insole_stance_slot_t *s = slot(zv, zv->fed++);
+    if (insole_still_window_push(&zv->window, s->accel_mps2, s->gyro_radps, &statistic) ==
+        INSOLE_OK) {
+        while (zv->measured + zv->half != zv->fed) {
+            slot(zv, zv->measured++)->statistic = statistic;
+        }
     }
-    slot(zv, zv->measured)->statistic =
-        window_statistic(&zv->config, &zv->sums, ONE / (insole_real_t)width);
-    zv->measured++;
 }
 
-static void measure(insole_zero_velocity_t *zv, uint32_t at_most)
+static void measure(insole_zero_velocity_t *zv)
 {
-    uint32_t count = insole_ring_count(&zv->ring);
-    if (zv->half == 0u && (count >= RATE_SAMPLES || zv->finished)) {
-        learn_window(zv);
+    if (zv->half == 0u) {
+        if (insole_ring_count(&zv->ring) < RATE_SAMPLES && !zv->finished) {
+            return;
+        }
+        open_window(zv);
     }
-    uint32_t width = 2u * zv->half + 1u;
-    if (zv->half == 0u || (!zv->has_window && count < width)) {
-        return;
-    }
-    if (!zv->has_window) {
-        measure_first(zv);
-    }
-    for (uint32_t i = 0u; i < at_most && zv->measured + zv->half != zv->ring.end; i++) {
+    while (zv->fed != zv->ring.end) {
         measure_next(zv);
     }
 }
@@ -287,6 +233,15 @@ static void judge_adaptive(insole_zero_velocity_t *zv, uint32_t number)
     remember_past(zv, k->t_us, k->statistic);
 }
 
+/* The sample as such, in units of the two thresholds: still below 1. Step one of [TwoOrder] 4.3. */
+static insole_real_t two_step_statistic(const insole_zero_velocity_config_t *c,
+                                        const insole_stance_slot_t *s)
+{
+    insole_real_t accel = insole_abs(insole_vec3_norm(s->accel_mps2) - c->gravity_mps2);
+    insole_real_t gyro = insole_vec3_norm(s->gyro_radps);
+    return insole_max(accel / c->two_step_accel_mps2, gyro / c->two_step_gyro_radps);
+}
+
 /* Step two of [TwoOrder] 4.3: a moving sample whose stored neighbours on both sides are still. */
 static void judge_two_step(insole_zero_velocity_t *zv, uint32_t number)
 {
@@ -342,18 +297,17 @@ static uint32_t judge_ahead_us(const insole_zero_velocity_t *zv)
                                                            : 0u;
 }
 
-/* The slots before `end` reach `ahead_us` beyond sample `number`. */
-static bool is_seen(insole_zero_velocity_t *zv, uint32_t number, uint32_t ahead_us, uint32_t end)
+/* Nothing is left to wait for: the oldest of a full line must do with what there is. */
+static bool is_seen(insole_zero_velocity_t *zv, uint32_t number)
 {
-    if (number == end) {
-        return false;
-    }
-    return zv->finished || slot(zv, end - 1u)->t_us - slot(zv, number)->t_us >= ahead_us;
+    bool crowded = insole_ring_is_full(&zv->ring) && number == zv->ring.begin;
+    return zv->finished || crowded ||
+           (uint32_t)zv->newest_us - slot(zv, number)->t_us >= judge_ahead_us(zv);
 }
 
 static void judge_seen(insole_zero_velocity_t *zv)
 {
-    while (is_seen(zv, zv->judged, judge_ahead_us(zv), zv->measured)) {
+    while (zv->judged != zv->measured && is_seen(zv, zv->judged)) {
         judge(zv, zv->judged++);
     }
 }
@@ -387,7 +341,7 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
                               0u};
     zv->slots[insole_ring_push(&zv->ring)] = s;
     zv->newest_us = imu->t_us;
-    measure(zv, CATCH_UP);
+    measure(zv);
     judge_seen(zv);
     return INSOLE_OK;
 }
@@ -395,8 +349,8 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
 /* The samples after the last full window share its statistic. */
 static void measure_rest(insole_zero_velocity_t *zv)
 {
-    measure(zv, INSOLE_STANCE_RING);
-    bool any = zv->has_window;
+    measure(zv);
+    bool any = zv->window.count == zv->window.width;
     insole_real_t T = any ? slot(zv, zv->measured - 1u)->statistic : INSOLE_REAL_MAX;
     while (zv->measured != zv->ring.end) {
         slot(zv, zv->measured++)->statistic = T;
@@ -414,12 +368,15 @@ insole_status_t insole_zero_velocity_finish(insole_zero_velocity_t *zv)
     return INSOLE_OK;
 }
 
-/* A released slot may still be wanted by the window that follows it. */
+/* Every sample that may still spread its stance over this one has been judged. */
 static bool is_released(insole_zero_velocity_t *zv, uint32_t number)
 {
-    bool needed = zv->measured - number <= zv->half + 1u;
+    if (number == zv->judged) {
+        return false;
+    }
     uint32_t spread_us = zv->config.detector == INSOLE_DETECT_ADAPTIVE ? zv->spread_us : 0u;
-    return is_seen(zv, number, spread_us, zv->judged) && (zv->finished || !needed);
+    return zv->finished || insole_ring_is_full(&zv->ring) ||
+           slot(zv, zv->judged)->t_us - slot(zv, number)->t_us > spread_us;
 }
 
 insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out)

@@ -1,8 +1,8 @@
 /** @file zero_velocity.h  Is the foot still? A delay line: samples go in, labelled samples come
  * out.
  *
- *  Source  [TwoOrder] 2.2 and 4.3 for the two-step logic; the likelihood ratio of a resting sensor
- *          (SHOE), its parts MV, MAG and ARE; an adaptive detector of our own.
+ *  Source  [TwoOrder] 2.2 and 4.3 for the two-step logic; SHOE, MV, MAG and ARE of still_window.h;
+ *          an adaptive detector of our own.
  *  Frames  b: sensor on the shoe; only lengths and spreads are used, any mounting will do.
  *
  *      static insole_zero_velocity_t stance;
@@ -11,18 +11,13 @@
  *          insole_zero_velocity_push(&stance, &imu);
  *          while (insole_zero_velocity_next(&stance, &out) == INSOLE_OK) use(&out.imu, out.still);
  *
- *  All detectors work on a statistic of a short centred window, held as running sums:
+ *  The detectors compare a statistic of a short centred window (still_window.h) with a threshold.
+ *  The adaptive one takes SHOE below its threshold as a plain stance and, where none is near, the
+ *  least still moment of each gait cycle as a guaranteed one: nobody walks without putting the foot
+ *  down. A sample leaves at the latest one interval after `reach_s` + `spread_s` have passed.
  *
- *      SHOE  (mean|a|^2 - 2 g |mean a| + g^2) / sa^2 + mean|w|^2 / sw^2
- *      MV    (mean|a|^2 - |mean a|^2) / sa^2
- *      MAG   (mean|a|^2 - 2 g mean|a| + g^2) / sa^2
- *      ARE   mean|w|^2 / sw^2
- *
- *  and a threshold. The adaptive one takes SHOE below its threshold as a plain stance and, where
- *  none is near, the least still moment of each gait cycle as a guaranteed one: nobody walks
- *  without putting the foot down. It looks `reach_s` + `spread_s` ahead.
- *
- *  Samples come 250 times a second at most (sense/screen averages faster ones).
+ *  The line holds half a second at 250 Hz (sense/screen averages faster samples). Faster ones still
+ *  come through, judged by the shorter time that it holds.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -32,15 +27,15 @@
 #include "insole/base/config.h"
 #include "insole/base/ring.h"
 #include "insole/base/types.h"
+#include "insole/sense/still_window.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 enum {
-    INSOLE_STANCE_RING = 128, /**< samples in the delay line: half a second at 250 Hz */
-    INSOLE_STANCE_PAST = 8,   /**< blocks in which the past minimum of the statistic is kept */
-    INSOLE_STANCE_WINDOW = 15 /**< longest window of the statistic [samples] */
+    INSOLE_STANCE_RING = 128, /**< samples in the delay line */
+    INSOLE_STANCE_PAST = 8    /**< blocks in which the past minimum of the statistic is kept */
 };
 
 typedef enum {
@@ -111,13 +106,6 @@ typedef struct {
     uint8_t label;
 } insole_stance_slot_t;
 
-/** Running sums over the window; `fresh` is summed anew and takes over each time it is full, so
- *  that rounding cannot gather. */
-typedef struct {
-    insole_vec3_t accel;
-    insole_real_t accel2, accel_norm, gyro2;
-} insole_stance_sums_t;
-
 typedef struct {
     insole_zero_velocity_config_t config;
     insole_ring_t ring;
@@ -125,11 +113,10 @@ typedef struct {
     uint64_t newest_us;
     uint32_t reach_us, spread_us, hole_us; /**< settings in microseconds */
     uint32_t half;                         /**< half window [samples]; 0 until the rate is known */
+    uint32_t fed;      /**< running number of the next slot that the window is to take */
     uint32_t measured; /**< running number of the next slot whose statistic is to be formed */
     uint32_t judged;   /**< running number of the next slot to be judged */
-    insole_stance_sums_t sums, fresh;
-    uint32_t fresh_count;
-    bool has_window;
+    insole_still_window_t window;
     insole_real_t past[INSOLE_STANCE_PAST]; /**< minima of the statistic in blocks of the past */
     uint32_t past_at;                       /**< index of the block being filled */
     uint32_t past_began_us;                 /**< low half of the time at which it began */
