@@ -55,13 +55,38 @@ static void block_add(insole_still_block_t *block, const insole_imu_t *imu)
     block->count++;
 }
 
+static insole_still_moments_t moments_of(const insole_still_block_t *b)
+{
+    insole_real_t per_n = INSOLE_R(1.0) / (insole_real_t)b->count;
+    insole_vec3_t accel = insole_vec3_scale(b->accel, per_n);
+    insole_vec3_t gyro = insole_vec3_scale(b->gyro, per_n);
+    insole_still_moments_t moments = {
+        insole_vec3_add(accel, b->accel0_mps2), insole_vec3_add(gyro, b->gyro0_radps),
+        insole_vec3_sub(insole_vec3_scale(b->accel2, per_n), squares(accel)),
+        insole_vec3_sub(insole_vec3_scale(b->gyro2, per_n), squares(gyro))};
+    return moments;
+}
+
+static insole_vec3_t middle(insole_vec3_t a, insole_vec3_t b)
+{
+    return insole_vec3_scale(insole_vec3_add(a, b), INSOLE_R(0.5));
+}
+
 /* Largest variance over the axes of two blocks joined. */
 static insole_real_t joint_variance(insole_vec3_t mean_a, insole_vec3_t var_a, insole_vec3_t mean_b,
                                     insole_vec3_t var_b)
 {
     insole_vec3_t half_apart = insole_vec3_scale(insole_vec3_sub(mean_a, mean_b), INSOLE_R(0.5));
-    insole_vec3_t within = insole_vec3_scale(insole_vec3_add(var_a, var_b), INSOLE_R(0.5));
-    return insole_vec3_max_abs(insole_vec3_add(within, squares(half_apart)));
+    return insole_vec3_max_abs(insole_vec3_add(middle(var_a, var_b), squares(half_apart)));
+}
+
+static bool are_quiet(const insole_still_bias_config_t *c, const insole_still_moments_t *a,
+                      const insole_still_moments_t *b)
+{
+    return joint_variance(a->gyro_radps, a->var_gyro, b->gyro_radps, b->var_gyro) <
+               insole_square(c->quiet_gyro_radps) &&
+           joint_variance(a->accel_mps2, a->var_accel, b->accel_mps2, b->var_accel) <
+               insole_square(c->quiet_accel_mps2);
 }
 
 static void learn_axis(insole_real_t *bias, insole_real_t *variance, insole_real_t measured,
@@ -93,40 +118,41 @@ static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
     }
     rest->gravity_rests++;
     insole_real_t weight = INSOLE_R(1.0) / (insole_real_t)rest->gravity_rests;
-    rest->gravity_mps2 =
-        rest->gravity_rests == 1u ? g : rest->gravity_mps2 + weight * (g - rest->gravity_mps2);
+    rest->gravity_mps2 += weight * (g - rest->gravity_mps2);
 }
 
 /* A full block against the one before. */
-static void block_end(insole_still_bias_t *rest)
+static void end_block(insole_still_bias_t *rest)
 {
     const insole_still_bias_config_t *c = &rest->config;
-    insole_still_block_t *b = &rest->block;
-    insole_real_t per_n = INSOLE_R(1.0) / (insole_real_t)b->count;
-    insole_vec3_t accel = insole_vec3_scale(b->accel, per_n),
-                  gyro = insole_vec3_scale(b->gyro, per_n);
-    insole_vec3_t var_accel = insole_vec3_sub(insole_vec3_scale(b->accel2, per_n), squares(accel));
-    insole_vec3_t var_gyro = insole_vec3_sub(insole_vec3_scale(b->gyro2, per_n), squares(gyro));
-    accel = insole_vec3_add(accel, b->accel0_mps2);
-    gyro = insole_vec3_add(gyro, b->gyro0_radps);
+    insole_still_moments_t now = moments_of(&rest->block), *before = &rest->before;
     insole_real_t walk = insole_square(c->bias_walk_radps_rts) * c->block_s;
     rest->variance_radps2 = insole_vec3_add(rest->variance_radps2, insole_vec3(walk, walk, walk));
-    insole_real_t apart = insole_vec3_max_abs(insole_vec3_sub(gyro, rest->mean_gyro_radps));
-    if (rest->blocks > 0u && apart < c->agree_radps &&
-        joint_variance(gyro, var_gyro, rest->mean_gyro_radps, rest->var_gyro) <
-            insole_square(c->quiet_gyro_radps) &&
-        joint_variance(accel, var_accel, rest->mean_accel_mps2, rest->var_accel) <
-            insole_square(c->quiet_accel_mps2)) {
-        insole_vec3_t both = insole_vec3_add(gyro, rest->mean_gyro_radps);
-        learn_bias(rest, insole_vec3_scale(both, INSOLE_R(0.5)), apart);
-        both = insole_vec3_add(accel, rest->mean_accel_mps2);
-        learn_gravity(rest, insole_vec3_scale(both, INSOLE_R(0.5)));
+    insole_real_t apart = insole_vec3_max_abs(insole_vec3_sub(now.gyro_radps, before->gyro_radps));
+    if (rest->has_before && apart < c->agree_radps && are_quiet(c, &now, before)) {
+        learn_bias(rest, middle(now.gyro_radps, before->gyro_radps), apart);
+        learn_gravity(rest, middle(now.accel_mps2, before->accel_mps2));
     }
-    rest->mean_accel_mps2 = accel;
-    rest->mean_gyro_radps = gyro;
-    rest->var_accel = var_accel;
-    rest->var_gyro = var_gyro;
-    rest->blocks = 1u;
+    *before = now;
+    rest->has_before = true;
+}
+
+/* Sums the sample; true when the block is full. */
+static bool fill_block(insole_still_bias_t *rest, const insole_imu_t *imu)
+{
+    insole_still_block_t *b = &rest->block;
+    block_add(b, imu);
+    insole_real_t length_s = (insole_real_t)(imu->t_us - b->begin_us) * INSOLE_R(1.0e-6);
+    return length_s >= rest->config.block_s && b->count > 2u;
+}
+
+/* The first sample of all, or the first after a gap. */
+static void begin(insole_still_bias_t *rest, const insole_imu_t *imu)
+{
+    rest->first_us = rest->has_first ? rest->first_us : imu->t_us;
+    rest->has_first = true;
+    rest->has_before = false;
+    block_begin(&rest->block, imu);
 }
 
 insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_imu_t *imu)
@@ -140,17 +166,11 @@ insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_i
         return finite ? INSOLE_ERR_TIME : INSOLE_ERR_VALUE;
     }
     if (!rest->has_first || imu->t_us - rest->last_us > GAP_US) {
-        rest->first_us = rest->has_first ? rest->first_us : imu->t_us;
-        rest->has_first = true;
-        rest->blocks = 0u;
-        block_begin(&rest->block, imu);
+        begin(rest, imu);
     }
     rest->last_us = imu->t_us;
-    block_add(&rest->block, imu);
-    insole_real_t length_s =
-        (insole_real_t)(uint32_t)(imu->t_us - rest->block.begin_us) * INSOLE_R(1.0e-6);
-    if (length_s >= rest->config.block_s && rest->block.count > 2u) {
-        block_end(rest);
+    if (fill_block(rest, imu)) {
+        end_block(rest);
         block_begin(&rest->block, imu);
     }
     return INSOLE_OK;

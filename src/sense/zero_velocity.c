@@ -163,8 +163,7 @@ static bool is_least_of_future(insole_zero_velocity_t *zv, uint32_t number)
     return true;
 }
 
-/* A minimum that comes early in the gait period and is less still than usual is one of the swing.
- */
+/* A minimum early in the gait period and less still than usual is one of the swing. */
 static bool is_in_swing(const insole_zero_velocity_t *zv, const insole_stance_slot_t *k)
 {
     const insole_zero_velocity_config_t *c = &zv->config;

@@ -61,6 +61,11 @@ typedef struct {
     uint32_t count;
 } insole_still_block_t;
 
+/** Means and variances per axis over one block. */
+typedef struct {
+    insole_vec3_t accel_mps2, gyro_radps, var_accel, var_gyro;
+} insole_still_moments_t;
+
 typedef struct {
     insole_still_bias_config_t config;
     insole_vec3_t gyro_bias_radps;
@@ -68,9 +73,8 @@ typedef struct {
     insole_real_t gravity_mps2;
     uint64_t first_us, last_us;
     insole_still_block_t block;                     /**< being filled */
-    insole_vec3_t mean_accel_mps2, mean_gyro_radps; /**< of the block before */
-    insole_vec3_t var_accel, var_gyro;              /**< of the block before */
-    uint32_t blocks;                                /**< blocks in a row without a gap, 2 at most */
+    insole_still_moments_t before;                  /**< of the block before */
+    bool has_before;                                /**< there was no gap since */
     uint32_t rests;                                 /**< times the bias was learned */
     uint32_t gravity_rests;                         /**< of these, used for gravity */
     bool has_first;
