@@ -29,6 +29,9 @@
 #include "insole/sense/still_bias.h"
 #include "insole/sense/still_window.h"
 #include "insole/sense/zero_velocity.h"
+#include "insole/track/foot_anchor.h"
+#include "insole/track/foot_config.h"
 #include "insole/track/foot_tracker.h"
+#include "insole/track/foot_walk.h"
 
 #endif

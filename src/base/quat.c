@@ -51,6 +51,19 @@ insole_quat_t insole_quat_from_yaw(insole_real_t yaw_rad)
     return insole_quat_from_rotvec(insole_vec3(INSOLE_R(0.0), INSOLE_R(0.0), yaw_rad));
 }
 
+insole_quat_t insole_quat_level(insole_quat_t q, insole_vec3_t f_b)
+{
+    insole_vec3_t f = insole_quat_rotate(q, f_b);
+    insole_quat_t tilt = insole_quat(insole_vec3_norm(f) + f.z, f.y, -f.x, INSOLE_R(0.0));
+    return insole_quat_normalize(insole_quat_mul(insole_quat_normalize(tilt), q));
+}
+
+insole_real_t insole_quat_turn(insole_quat_t from, insole_quat_t to)
+{
+    insole_quat_t turn = insole_quat_mul(to, insole_quat_conjugate(from));
+    return insole_wrap_pi(INSOLE_R(2.0) * insole_atan2(turn.z, turn.w));
+}
+
 insole_real_t insole_quat_yaw(insole_quat_t q)
 {
     insole_mat3_t C = insole_quat_to_mat3(q);

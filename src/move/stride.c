@@ -135,6 +135,12 @@ insole_status_t insole_stride_push(insole_stride_counter_t *counter,
         counter->refused++;
         return INSOLE_ERR_VALUE;
     }
+    if (counter->has_time && input->t_us <= counter->t_us) {
+        counter->refused++;
+        return INSOLE_ERR_TIME;
+    }
+    counter->t_us = input->t_us;
+    counter->has_time = true;
     bool ended =
         input->still ? push_still(counter, input, stride) : push_moving(counter, input, stride);
     return ended ? INSOLE_OK : INSOLE_ERR_STATE;

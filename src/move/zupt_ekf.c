@@ -77,6 +77,7 @@ insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf, insole_vec3_t mean
     forget_motion(&ekf->P);
     ekf->P.aa = insole_sym3_diagonal(tilt_var, tilt_var, ekf->P.aa.zz);
     ekf->aligned = true;
+    ekf->coasting = false;
     ekf->t_us = t_us;
     return INSOLE_OK;
 }
@@ -190,11 +191,6 @@ static void add_noise(insole_zupt_ekf_t *ekf)
     *noise = none;
 }
 
-static bool imu_is_finite(const insole_imu_t *imu)
-{
-    return insole_vec3_is_finite(imu->accel_mps2) && insole_vec3_is_finite(imu->gyro_radps);
-}
-
 insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu_t *imu,
                                         uint32_t clipped)
 {
@@ -207,7 +203,8 @@ insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu
     if (imu->t_us <= ekf->t_us) {
         return refuse(ekf, INSOLE_ERR_TIME);
     }
-    if (imu->t_us - ekf->t_us > LONGEST_STEP_US || !imu_is_finite(imu)) {
+    if (imu->t_us - ekf->t_us > LONGEST_STEP_US || !insole_vec3_is_finite(imu->accel_mps2) ||
+        !insole_vec3_is_finite(imu->gyro_radps)) {
         return refuse(ekf, INSOLE_ERR_VALUE);
     }
     insole_real_t dt = (insole_real_t)(uint32_t)(imu->t_us - ekf->t_us) * INSOLE_R(1.0e-6);
@@ -223,6 +220,7 @@ insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu
     if (has_bias(ekf)) {
         propagate_bias(&ekf->P, insole_mat3_scale(ekf->C, -dt), u, dt);
     }
+    ekf->coasting = false;
     ekf->dt_s = dt;
     ekf->t_us = imu->t_us;
     ekf->last_accel_mps2 = accel;
@@ -386,9 +384,14 @@ insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf, insole_vec3_t velo
     insole_real_t dt = (insole_real_t)(t_us - ekf->t_us) * INSOLE_R(1.0e-6);
     ekf->p_m = insole_vec3_add_scaled(ekf->p_m, dt, velocity_mps);
     ekf->v_mps = velocity_mps;
-    forget_motion(&ekf->P);
-    ekf->P.pp = insole_sym3_add_diagonal(ekf->P.pp, insole_square(sigma_mps * dt));
-    ekf->P.vv = insole_sym3_add_diagonal(ekf->P.vv, insole_square(sigma_mps));
+    insole_zupt_cov_t *P = &ekf->P;
+    if (!ekf->coasting) {
+        forget_motion(P);
+        P->vv = insole_sym3_add_diagonal(P->vv, insole_square(sigma_mps));
+    }
+    P->pp = insole_sym3_add_scaled(insole_sym3_add_twice(P->pp, dt, P->pv), dt * dt, P->vv);
+    P->pv = insole_mat3_add_scaled(P->pv, dt, insole_sym3_full(P->vv));
+    ekf->coasting = true;
     ekf->t_us = t_us;
     return INSOLE_OK;
 }

@@ -67,17 +67,13 @@ static insole_still_moments_t moments_of(const insole_still_block_t *b)
     return moments;
 }
 
-static insole_vec3_t middle(insole_vec3_t a, insole_vec3_t b)
-{
-    return insole_vec3_scale(insole_vec3_add(a, b), INSOLE_R(0.5));
-}
-
 /* Largest variance over the axes of two blocks joined. */
 static insole_real_t joint_variance(insole_vec3_t mean_a, insole_vec3_t var_a, insole_vec3_t mean_b,
                                     insole_vec3_t var_b)
 {
     insole_vec3_t half_apart = insole_vec3_scale(insole_vec3_sub(mean_a, mean_b), INSOLE_R(0.5));
-    return insole_vec3_max_abs(insole_vec3_add(middle(var_a, var_b), squares(half_apart)));
+    insole_vec3_t within = insole_vec3_middle(var_a, var_b);
+    return insole_vec3_max_abs(insole_vec3_add(within, squares(half_apart)));
 }
 
 static bool are_quiet(const insole_still_bias_config_t *c, const insole_still_moments_t *a,
@@ -130,8 +126,8 @@ static void end_block(insole_still_bias_t *rest)
     rest->variance_radps2 = insole_vec3_add(rest->variance_radps2, insole_vec3(walk, walk, walk));
     insole_real_t apart = insole_vec3_max_abs(insole_vec3_sub(now.gyro_radps, before->gyro_radps));
     if (rest->has_before && apart < c->agree_radps && are_quiet(c, &now, before)) {
-        learn_bias(rest, middle(now.gyro_radps, before->gyro_radps), apart);
-        learn_gravity(rest, middle(now.accel_mps2, before->accel_mps2));
+        learn_bias(rest, insole_vec3_middle(now.gyro_radps, before->gyro_radps), apart);
+        learn_gravity(rest, insole_vec3_middle(now.accel_mps2, before->accel_mps2));
     }
     *before = now;
     rest->has_before = true;

@@ -1,83 +1,49 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/foot_tracker.h"
 
-#include "insole/base/fastmath.h"
-
 #define ZERO INSOLE_R(0.0)
 
-/* The start's heading is the direction of the first two strides; before they are done, that of
- * the way so far, once it is long enough to have one. */
-enum { START_STRIDES = 2 };
-static const insole_real_t WAY_WITH_DIRECTION_M = INSOLE_R(0.3);
+/* What a rate that is interpolated over a gap may be wrong by. */
+static const insole_real_t BRIDGE_ACCEL_MPS2 = INSOLE_R(4.0);
+static const insole_real_t BRIDGE_GYRO_RADPS = INSOLE_R(0.7);
 
-/* A stride older than this says nothing about the walker's velocity. */
-static const uint64_t WALK_MEMORY_US = 1500000u;
-
-/* Share of its length by which a stride of the model may be wrong. */
-static const insole_real_t MODEL_ERROR_SHARE = INSOLE_R(0.1);
-
-static const insole_real_t FARTHEST_M = INSOLE_R(1.0e6); /* a start beyond is an error */
-static const insole_real_t TURNS_RAD = INSOLE_R(100.0);  /* and so is such a heading */
-
-const insole_foot_tracker_config_t insole_foot_tracker_defaults = {
-    INSOLE_FOOT_TRACKER_KEYS(INSOLE_CONFIG_DEFAULT){INSOLE_SCREEN_KEYS(INSOLE_CONFIG_DEFAULT)},
-    {INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_DEFAULT)},
-    {INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_DEFAULT)},
-    {INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_DEFAULT)},
-    {INSOLE_STRIDE_KEYS(INSOLE_CONFIG_DEFAULT)}};
-
-static insole_status_t init_parts(insole_foot_tracker_t *t,
-                                  const insole_foot_tracker_config_t *config)
+static insole_real_t seconds(uint64_t from_us, uint64_t to_us)
 {
-    insole_status_t status = insole_screen_init(&t->screen, &config->screen);
-    if (status == INSOLE_OK) {
-        status = insole_still_bias_init(&t->still_bias, &config->still_bias);
-    }
-    if (status == INSOLE_OK) {
-        status = insole_zero_velocity_init(&t->zero_velocity, &config->zero_velocity);
-    }
-    if (status == INSOLE_OK) {
-        status = insole_zupt_ekf_init(&t->zupt_ekf, &config->zupt_ekf);
-    }
-    if (status == INSOLE_OK) {
-        status = insole_stride_init(&t->strides, &config->stride);
-    }
-    return status;
+    return (insole_real_t)(to_us - from_us) * INSOLE_R(1.0e-6);
 }
 
 insole_status_t insole_foot_tracker_init(insole_foot_tracker_t *tracker,
                                          const insole_foot_tracker_config_t *config)
 {
-    if (!tracker || !config) {
+    if (!tracker) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_FOOT_TRACKER_KEYS(INSOLE_CONFIG_IN_RANGE))) {
-        return INSOLE_ERR_VALUE;
+    insole_status_t status = insole_foot_config_check(config);
+    if (status != INSOLE_OK) {
+        return status;
     }
     static const insole_foot_tracker_t blank;
     *tracker = blank;
     tracker->config = *config;
-    return init_parts(tracker, config);
-}
-
-static bool is_plausible(const insole_start_t *start)
-{
-    bool place = insole_abs(start->x_m) <= FARTHEST_M && insole_abs(start->y_m) <= FARTHEST_M &&
-                 start->sigma_m >= ZERO && start->sigma_m <= FARTHEST_M;
-    bool heading = insole_abs(start->heading_rad) <= TURNS_RAD && start->sigma_rad >= ZERO &&
-                   start->sigma_rad <= TURNS_RAD;
-    return place && (heading || !start->has_heading);
+    (void)insole_screen_init(&tracker->screen, &config->screen);
+    (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
+    (void)insole_zero_velocity_init(&tracker->zero_velocity, &config->zero_velocity);
+    (void)insole_zupt_ekf_init(&tracker->zupt_ekf, &config->zupt_ekf);
+    (void)insole_stride_init(&tracker->strides, &config->stride);
+    (void)insole_foot_walk_init(&tracker->walk);
+    return INSOLE_OK;
 }
 
 insole_status_t insole_foot_tracker_start(insole_foot_tracker_t *tracker,
                                           const insole_start_t *start)
 {
-    if (!tracker || !start) {
+    if (!tracker) {
         return INSOLE_ERR_NULL;
     }
-    if (!is_plausible(start)) {
+    insole_status_t status = insole_foot_anchor_check(start);
+    if (status != INSOLE_OK) {
         tracker->counts.refused++;
-        return INSOLE_ERR_VALUE;
+        return status;
     }
     tracker->start = *start;
     tracker->has_start = true;
@@ -120,7 +86,7 @@ insole_status_t insole_foot_tracker_finish(insole_foot_tracker_t *tracker)
         return INSOLE_ERR_NULL;
     }
     insole_clean_t clean;
-    if (!tracker->finished && insole_screen_finish(&tracker->screen, &clean) == INSOLE_OK) {
+    while (!tracker->finished && insole_screen_finish(&tracker->screen, &clean) == INSOLE_OK) {
         (void)take_clean(tracker, &clean);
     }
     tracker->finished = true;
@@ -141,21 +107,19 @@ static bool stance_is_summed(insole_foot_tracker_t *t, const insole_labelled_t *
     }
     t->still_accel = insole_vec3_add(t->still_accel, s->imu.accel_mps2);
     t->still_count++;
-    insole_real_t lasted_s = (insole_real_t)(s->imu.t_us - t->still_since_us) * INSOLE_R(1.0e-6);
-    return lasted_s >= t->config.align_s;
+    return seconds(t->still_since_us, s->imu.t_us) >= t->config.align_s;
 }
 
-static bool align(insole_foot_tracker_t *t, const insole_labelled_t *s, insole_real_t yaw_rad,
-                  insole_real_t sigma_tilt_rad)
+static bool align(insole_foot_tracker_t *t, const insole_labelled_t *s,
+                  insole_real_t sigma_tilt_rad, insole_vec3_t *mean_accel)
 {
     if (!stance_is_summed(t, s)) {
         return false;
     }
-    insole_vec3_t mean =
-        insole_vec3_scale(t->still_accel, INSOLE_R(1.0) / (insole_real_t)t->still_count);
+    *mean_accel = insole_vec3_scale(t->still_accel, INSOLE_R(1.0) / (insole_real_t)t->still_count);
     t->still_count = 0u;
     t->zupt_ekf.gravity_mps2 = t->still_bias.gravity_mps2;
-    return insole_zupt_ekf_align(&t->zupt_ekf, mean, sigma_tilt_rad, yaw_rad, s->imu.t_us) ==
+    return insole_zupt_ekf_align(&t->zupt_ekf, *mean_accel, sigma_tilt_rad, ZERO, s->imu.t_us) ==
            INSOLE_OK;
 }
 
@@ -164,38 +128,24 @@ static void align_first(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
     bool rest = s->plain && s->imu.t_us - t->still_since_us > 0u && t->still_bias.rests > 0u;
     insole_real_t tilt = rest ? t->config.zupt_ekf.sigma_tilt_rad : t->config.sigma_moving_tilt_rad;
-    if (align(t, s, ZERO, tilt)) {
+    insole_vec3_t mean_accel;
+    if (align(t, s, tilt, &mean_accel)) {
         t->counts.aligned_moving = !rest;
-        t->aligned_us = s->imu.t_us;
+        t->first_q = t->stance_q = t->zupt_ekf.q;
+        t->anchor.t_us = s->imu.t_us;
     }
 }
 
 /* ---- motion ----------------------------------------------------------------------------- */
 
-static void coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
+/* Where the errors of position are counted from; without the rest of its row nothing that is
+ * learned later speaks of the way before. */
+static void forget_place(insole_foot_tracker_t *t)
 {
-    bool walking = t->walk_us > 0u && s->imu.t_us - t->walk_us < WALK_MEMORY_US;
-    insole_vec3_t velocity = walking ? t->walk_mps : insole_vec3_zero();
-    (void)insole_zupt_ekf_coast(&t->zupt_ekf, velocity, t->config.sigma_walk_mps, s->imu.t_us);
-}
-
-/* A gap begins: attitude and velocity are worth nothing until the foot stands again. */
-static void begin_coast(insole_foot_tracker_t *t)
-{
-    t->coasting = true;
-    t->still_count = 0u;
-    t->counts.coasts++;
-}
-
-static void end_coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
-{
-    if (align(t, s, t->stance_yaw_rad, t->config.sigma_moving_tilt_rad)) {
-        t->coasting = false;
-        t->counts.realigned++;
-        t->zupt_ekf.P.aa.zz += insole_square(t->config.sigma_gap_yaw_rad);
-        t->has_floor = false;
-        insole_stride_restart(&t->strides);
-    }
+    insole_zupt_cov_t *P = &t->zupt_ekf.P;
+    P->pp = insole_sym3_zero();
+    P->pv = P->pa = P->pb = insole_mat3_zero();
+    t->walk.place_m2 = ZERO;
 }
 
 /* Floors are level: a stance that differs little in height from the last stands as high. */
@@ -220,7 +170,8 @@ static void navigate(insole_foot_tracker_t *t, const insole_labelled_t *s)
         if (insole_zupt_ekf_correct(&t->zupt_ekf, 0) == INSOLE_OK) {
             t->counts.corrections++;
         }
-        t->stance_yaw_rad = insole_quat_yaw(t->zupt_ekf.q);
+        t->stance_q = t->zupt_ekf.q;
+        t->stance_us = s->imu.t_us;
     } else if (t->was_still) {
         level_floor(t);
     }
@@ -228,38 +179,52 @@ static void navigate(insole_foot_tracker_t *t, const insole_labelled_t *s)
 
 /* ---- strides ---------------------------------------------------------------------------- */
 
-static void note_walk(insole_foot_tracker_t *t, const insole_stride_t *stride, uint64_t t_us)
+/* True when a stride ends. */
+static bool count_stride(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
-    insole_real_t lasted_s = (insole_real_t)(stride->end_us - stride->begin_us) * INSOLE_R(1.0e-6);
-    insole_real_t gait_s = insole_max(lasted_s * INSOLE_R(1.6), INSOLE_R(0.5));
-    t->walk_mps = insole_vec3_scale(stride->displacement_m, INSOLE_R(1.0) / gait_s);
-    t->walk_mps.z = ZERO;
-    t->walk_us = t_us;
-    t->heading_n_rad = stride->heading_rad;
-    t->pdr_m.x += stride->model_length_m * insole_cos(stride->heading_rad);
-    t->pdr_m.y += stride->model_length_m * insole_sin(stride->heading_rad);
-    t->pdr_m.z += stride->displacement_m.z;
-    t->pdr_var_m2 += insole_square(MODEL_ERROR_SHARE * stride->model_length_m);
-}
-
-static void count_stride(insole_foot_tracker_t *t, const insole_labelled_t *s)
-{
-    insole_stride_input_t in = {s->imu.t_us, t->zupt_ekf.p_m, insole_quat_yaw(t->zupt_ekf.q),
+    insole_stride_input_t in = {s->imu.t_us, t->zupt_ekf.p_m,
+                                insole_quat_turn(t->first_q, t->zupt_ekf.q),
                                 t->zupt_ekf.force_mps2.z, s->still};
-    if (insole_stride_push(&t->strides, &in, &t->stride) == INSOLE_OK) {
+    bool ended = insole_stride_push(&t->strides, &in, &t->stride) == INSOLE_OK;
+    if (ended) {
         t->has_stride = true;
-        note_walk(t, &t->stride, s->imu.t_us);
-        if (t->anchor.strides_left > 0u) {
-            t->anchor.strides_left--;
-        }
+        (void)insole_foot_walk_stride(&t->walk, &t->stride, s->imu.t_us);
     }
+    return ended;
 }
 
 /* ---- from n to m ------------------------------------------------------------------------ */
 
 static insole_vec3_t position_n(const insole_foot_tracker_t *t)
 {
-    return t->config.method == INSOLE_FOOT_PDR ? t->pdr_m : t->zupt_ekf.p_m;
+    return t->config.method == INSOLE_FOOT_PDR ? t->walk.place_m : t->zupt_ekf.p_m;
+}
+
+static void make_fix(const insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t *fix)
+{
+    insole_sym3_t P = t->config.method == INSOLE_FOOT_PDR
+                          ? insole_sym3_add_diagonal(t->zupt_ekf.P.pp, t->walk.place_m2)
+                          : t->zupt_ekf.P.pp;
+    insole_fix_t in_n = {t_us, position_n(t),       t->walk.heading_rad, P.xx, P.xy, P.yy,
+                         P.zz, t->zupt_ekf.P.aa.zz, INSOLE_FIX_TRACK};
+    *fix = in_n;
+    (void)insole_foot_anchor_to_map(&t->anchor, fix);
+    if (!t->zupt_ekf.aligned) {
+        fix->state = INSOLE_FIX_ALIGN;
+    } else if (fix->var_x_m2 + fix->var_y_m2 > insole_square(t->config.lost_sigma_m)) {
+        fix->state = INSOLE_FIX_LOST;
+    } else if (t->coasting) {
+        fix->state = INSOLE_FIX_COAST;
+    }
+}
+
+/* Yaw is known from now on: nothing that is learned later speaks of its error before. */
+static void forget_yaw(insole_zupt_cov_t *P)
+{
+    P->aa.xz = P->aa.yz = P->aa.zz = ZERO;
+    P->va.r0.z = P->va.r1.z = P->va.r2.z = ZERO;
+    P->pa.r0.z = P->pa.r1.z = P->pa.r2.z = ZERO;
+    P->ab.r2 = insole_vec3_zero();
 }
 
 static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
@@ -267,104 +232,126 @@ static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
     if (!t->has_start || t_us < t->start.t_us) {
         return;
     }
-    insole_foot_anchor_t *a = &t->anchor;
-    a->anchor_n_m = position_n(t);
-    a->anchor_m_m = insole_vec3(t->start.x_m, t->start.y_m, a->anchor_m_m.z);
-    a->var_m2 = insole_square(t->start.sigma_m);
-    a->strides_left = 0u;
-    a->t_us = t_us;
+    (void)insole_foot_anchor_start(&t->anchor, &t->start, position_n(t), t_us);
+    forget_place(t);
     if (t->start.has_heading) {
-        a->heading_rad = t->start.heading_rad;
-        a->var_rad2 = insole_square(t->start.sigma_rad);
-        a->strides_left = START_STRIDES;
+        forget_yaw(&t->zupt_ekf.P);
     }
     t->has_start = false;
 }
 
-static void turn_to_heading(insole_foot_tracker_t *t)
+/* ---- gaps ------------------------------------------------------------------------------- */
+
+/* A short gap: the rates in it lie between those at its ends, more or less. */
+static void bridge(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
-    insole_vec3_t way = insole_vec3_sub(position_n(t), t->anchor.anchor_n_m);
-    if (t->anchor.strides_left > 0u &&
-        way.x * way.x + way.y * way.y > insole_square(WAY_WITH_DIRECTION_M)) {
-        t->anchor.yaw_rad = insole_wrap_pi(t->anchor.heading_rad - insole_atan2(way.y, way.x));
+    insole_zupt_ekf_t *ekf = &t->zupt_ekf;
+    insole_labelled_t middle = *s;
+    insole_vec3_t accel = insole_vec3_add(ekf->last_accel_mps2, ekf->accel_bias_mps2);
+    insole_vec3_t gyro = insole_vec3_add(ekf->last_gyro_radps, t->still_bias.gyro_bias_radps);
+    middle.imu.accel_mps2 = insole_vec3_middle(accel, s->imu.accel_mps2);
+    middle.imu.gyro_radps = insole_vec3_middle(gyro, s->imu.gyro_radps);
+    navigate(t, &middle);
+    insole_real_t var_v = insole_square(BRIDGE_ACCEL_MPS2 * ekf->dt_s);
+    insole_real_t var_a = insole_square(BRIDGE_GYRO_RADPS * ekf->dt_s);
+    ekf->P.vv = insole_sym3_add_diagonal(ekf->P.vv, var_v);
+    ekf->P.aa = insole_sym3_add_diagonal(ekf->P.aa, var_a);
+    t->counts.bridged++;
+}
+
+/* A long gap: attitude and velocity are worth nothing until the foot stands again. */
+static void begin_coast(insole_foot_tracker_t *t)
+{
+    t->coasting = true;
+    t->still_count = 0u;
+    t->counts.coasts++;
+    (void)insole_foot_walk_cease(&t->walk, t->zupt_ekf.t_us);
+}
+
+static void coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
+{
+    insole_vec3_t way;
+    insole_real_t per_s = INSOLE_R(1.0) / seconds(t->zupt_ekf.t_us, s->imu.t_us);
+    (void)insole_foot_walk_on(&t->walk, t->zupt_ekf.t_us, s->imu.t_us, &way);
+    (void)insole_zupt_ekf_coast(&t->zupt_ekf, insole_vec3_scale(way, per_s),
+                                t->config.sigma_walk_mps, s->imu.t_us);
+}
+
+/* The foot stands again, turned by what is usual and somewhat more or less. */
+static void end_coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
+{
+    insole_vec3_t mean_accel;
+    if (!align(t, s, t->config.sigma_moving_tilt_rad, &mean_accel)) {
+        return;
     }
+    insole_real_t bow = insole_foot_walk_bow(&t->walk, seconds(t->stance_us, s->imu.t_us));
+    insole_quat_t turn = insole_quat_from_yaw(bow);
+    t->zupt_ekf.q = insole_quat_level(insole_quat_mul(turn, t->stance_q), mean_accel);
+    t->zupt_ekf.C = insole_quat_to_mat3(t->zupt_ekf.q);
+    t->coasting = false;
+    t->has_floor = false;
+    t->counts.realigned++;
+    insole_stride_restart(&t->strides);
 }
 
-static void rotate_covariance(insole_fix_t *fix, insole_real_t c, insole_real_t s, insole_sym3_t P)
+/* True when the sample has been used up. */
+static bool cross_gap(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
-    insole_real_t cs2 = INSOLE_R(2.0) * c * s * P.xy;
-    fix->var_x_m2 = c * c * P.xx - cs2 + s * s * P.yy;
-    fix->var_y_m2 = s * s * P.xx + cs2 + c * c * P.yy;
-    fix->cov_xy_m2 = c * s * (P.xx - P.yy) + (c * c - s * s) * P.xy;
-}
-
-static insole_fix_state_t fix_state(const insole_foot_tracker_t *t, const insole_fix_t *fix)
-{
-    if (!t->zupt_ekf.aligned) {
-        return INSOLE_FIX_ALIGN;
+    insole_real_t gap_s = seconds(t->zupt_ekf.t_us, s->imu.t_us);
+    t->gap_turn_rad2 += insole_square(t->config.sigma_gap_turn_rad_rts) * gap_s;
+    if (t->coasting) {
+        return false;
     }
-    if (fix->var_x_m2 + fix->var_y_m2 > insole_square(t->config.lost_sigma_m)) {
-        return INSOLE_FIX_LOST;
+    if (gap_s > t->config.bridge_s) {
+        begin_coast(t);
+        return false;
     }
-    return t->coasting ? INSOLE_FIX_COAST : INSOLE_FIX_TRACK;
+    bridge(t, s);
+    return true;
 }
 
-/* Rounding may leave the variance of what has just been fixed a hair below zero. */
-static void keep_positive(insole_fix_t *fix)
+/* The foot stands for the first time after a gap: what lies before is left behind. */
+static void renew_anchor(insole_foot_tracker_t *t, uint64_t t_us)
 {
-    fix->var_x_m2 = insole_max(fix->var_x_m2, ZERO);
-    fix->var_y_m2 = insole_max(fix->var_y_m2, ZERO);
-    fix->var_z_m2 = insole_max(fix->var_z_m2, ZERO);
-    fix->var_heading_rad2 = insole_max(fix->var_heading_rad2, ZERO);
+    insole_fix_t fix;
+    make_fix(t, t_us, &fix);
+    (void)insole_foot_anchor_renew(&t->anchor, &fix, position_n(t), t->gap_turn_rad2);
+    forget_place(t);
+    t->gap_turn_rad2 = ZERO;
 }
 
-static void make_fix(const insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t *fix)
+/* One sample of the aligned filter; true when a stride ends. */
+static bool move(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
-    const insole_foot_anchor_t *a = &t->anchor;
-    insole_real_t c = insole_cos(a->yaw_rad), s = insole_sin(a->yaw_rad);
-    insole_vec3_t d = insole_vec3_sub(position_n(t), a->anchor_n_m);
-    insole_vec3_t way = insole_vec3(c * d.x - s * d.y, s * d.x + c * d.y, d.z);
-    insole_sym3_t P = t->config.method == INSOLE_FOOT_PDR
-                          ? insole_sym3_add_diagonal(t->zupt_ekf.P.pp, t->pdr_var_m2)
-                          : t->zupt_ekf.P.pp;
-    insole_real_t drift =
-        (insole_real_t)(t_us - a->t_us) * INSOLE_R(1.0e-6) * t->config.yaw_drift_radps;
-    insole_real_t var_yaw = a->var_rad2 + insole_square(t->zupt_ekf.aligned ? drift : ZERO);
-    rotate_covariance(fix, c, s, P);
-    fix->t_us = t_us;
-    fix->position_m = insole_vec3_add(a->anchor_m_m, way);
-    fix->heading_rad = insole_wrap_pi(t->heading_n_rad + a->yaw_rad);
-    fix->var_x_m2 += a->var_m2 + var_yaw * way.y * way.y;
-    fix->var_y_m2 += a->var_m2 + var_yaw * way.x * way.x;
-    fix->cov_xy_m2 -= var_yaw * way.x * way.y;
-    fix->var_z_m2 = P.zz;
-    fix->var_heading_rad2 = t->zupt_ekf.P.aa.zz + var_yaw;
-    keep_positive(fix);
-    fix->state = fix_state(t, fix);
+    bool bridged = (s->tag & INSOLE_MARK_GAP) != 0u && cross_gap(t, s);
+    if (t->coasting) {
+        coast(t, s);
+        end_coast(t, s);
+    } else if (!bridged) {
+        navigate(t, s);
+    }
+    if (t->gap_turn_rad2 > ZERO && s->still && !t->coasting) {
+        renew_anchor(t, s->imu.t_us);
+    }
+    return !t->coasting && count_stride(t, s);
 }
 
 /* ---- fixes out -------------------------------------------------------------------------- */
 
-static void advance(insole_foot_tracker_t *t, const insole_labelled_t *s)
+/* True when a stride ends. */
+static bool advance(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
-    if (!t->zupt_ekf.aligned) {
-        align_first(t, s);
+    bool stride_ended = false;
+    if (t->zupt_ekf.aligned) {
+        stride_ended = move(t, s);
     } else {
-        if ((s->tag & INSOLE_MARK_GAP) != 0u && !t->coasting) {
-            begin_coast(t);
-        }
-        if (t->coasting) {
-            coast(t, s);
-            end_coast(t, s);
-        } else {
-            navigate(t, s);
-            count_stride(t, s);
-        }
+        align_first(t, s);
     }
     t->counts.fixes++;
     t->counts.still += s->still ? 1u : 0u;
     t->counts.stances += s->still && !t->was_still ? 1u : 0u;
     t->was_still = s->still;
+    return stride_ended;
 }
 
 insole_status_t insole_foot_tracker_next(insole_foot_tracker_t *tracker, insole_fix_t *fix)
@@ -372,17 +359,18 @@ insole_status_t insole_foot_tracker_next(insole_foot_tracker_t *tracker, insole_
     if (!tracker || !fix) {
         return INSOLE_ERR_NULL;
     }
+    insole_foot_tracker_t *t = tracker;
     insole_labelled_t s;
-    if (insole_zero_velocity_next(&tracker->zero_velocity, &s) != INSOLE_OK) {
+    if (insole_zero_velocity_next(&t->zero_velocity, &s) != INSOLE_OK) {
         return INSOLE_ERR_STATE;
     }
-    if (tracker->counts.fixes == 0u) {
-        tracker->anchor.t_us = s.imu.t_us;
+    if (t->counts.fixes == 0u) {
+        (void)insole_foot_anchor_init(&t->anchor, t->config.yaw_drift_radps, s.imu.t_us);
     }
-    advance(tracker, &s);
-    reach_start(tracker, s.imu.t_us);
-    turn_to_heading(tracker);
-    make_fix(tracker, s.imu.t_us, fix);
+    bool stride_ended = advance(t, &s);
+    reach_start(t, s.imu.t_us);
+    (void)insole_foot_anchor_follow(&t->anchor, position_n(t), stride_ended);
+    make_fix(t, s.imu.t_us, fix);
     return INSOLE_OK;
 }
 

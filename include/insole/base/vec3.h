@@ -51,6 +51,12 @@ static inline insole_vec3_t insole_vec3_add_scaled(insole_vec3_t a, insole_real_
     return insole_vec3(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
 }
 
+/** (a + b) / 2 */
+static inline insole_vec3_t insole_vec3_middle(insole_vec3_t a, insole_vec3_t b)
+{
+    return insole_vec3_scale(insole_vec3_add(a, b), INSOLE_R(0.5));
+}
+
 static inline insole_real_t insole_vec3_dot(insole_vec3_t a, insole_vec3_t b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;

@@ -53,7 +53,8 @@ typedef struct {
 
 typedef struct {
     insole_stride_config_t config;
-    bool has_origin, was_still, settled;
+    uint64_t t_us; /**< of the newest sample */
+    bool has_time, has_origin, was_still, settled;
     insole_vec3_t origin_m; /**< where the stride in progress began */
     insole_real_t origin_yaw_rad;
     uint64_t left_us;           /**< last still sample of the stance it began with */
@@ -71,8 +72,8 @@ insole_status_t insole_stride_init(insole_stride_counter_t *counter,
                                    const insole_stride_config_t *config);
 
 /** @param[out] stride  written only when a stride has ended
- *  @return INSOLE_OK: a stride has ended; INSOLE_ERR_STATE: not yet; INSOLE_ERR_VALUE: not finite
- */
+ *  @return INSOLE_OK: a stride has ended; INSOLE_ERR_STATE: not yet; INSOLE_ERR_VALUE: not finite;
+ *          INSOLE_ERR_TIME */
 insole_status_t insole_stride_push(insole_stride_counter_t *counter,
                                    const insole_stride_input_t *input, insole_stride_t *stride);
 

@@ -77,7 +77,7 @@ typedef struct {
 
 typedef struct {
     insole_zupt_ekf_config_t config;
-    bool aligned;
+    bool aligned, coasting;
     uint64_t t_us;      /**< of the last sample */
     insole_real_t dt_s; /**< of the last interval */
     insole_real_t gravity_mps2;
@@ -124,7 +124,8 @@ insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ekf, insole_re
                                                insole_real_t sigma_m);
 
 /** Carries on without samples up to `t_us`: moves with `velocity_mps`, which is known to
- *  `sigma_mps` per axis; the position's covariance grows, attitude stays as it was.
+ *  `sigma_mps` per axis; the position's covariance grows, attitude stays as it was. Calls in a row
+ *  are one coast: the velocity is wrong by the same error all the time, the first call's sigma.
  *  @return INSOLE_ERR_STATE before alignment, INSOLE_ERR_TIME, INSOLE_ERR_VALUE */
 insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf, insole_vec3_t velocity_mps,
                                       insole_real_t sigma_mps, uint64_t t_us);
