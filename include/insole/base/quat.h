@@ -80,7 +80,8 @@ insole_quat_t insole_quat_from_gravity(insole_vec3_t f_b);
 insole_quat_t insole_quat_from_yaw(insole_real_t yaw_rad);
 
 /** The attitude nearest to `q` in which the specific force `f_b` of a resting sensor points up; the
- *  same for any mounting. An `f_b` of no length, or one that points straight down, changes nothing. */
+ *  same for any mounting. An `f_b` of no length, or one that points straight down, changes
+ *  nothing. */
 insole_quat_t insole_quat_level(insole_quat_t q, insole_vec3_t f_b);
 
 /** Turn about the vertical from one attitude to another, in (-pi, pi]; holds for any mounting. */
