@@ -16,6 +16,9 @@ static const insole_real_t FOOT_SHARE = INSOLE_R(0.8);
 static const insole_real_t LEAST_TOP_US = INSOLE_R(20000.0);
 static const insole_real_t TOP_PER_FALL = INSOLE_R(3.0);
 
+/* A top that some rate exceeds by this factor is none of the sensor's. */
+static const insole_real_t DISPROOF = INSOLE_R(1.2);
+
 insole_status_t insole_gyro_clip_init(insole_gyro_clip_t *clip, insole_real_t range_radps,
                                       insole_real_t share)
 {
@@ -76,14 +79,24 @@ static bool was_cut_off(insole_clip_peak_t *peak, insole_real_t size, insole_rea
     return cut;
 }
 
+/* The range is the largest top that was cut off and that no rate has gone far beyond. */
+static void learn_range(insole_gyro_clip_t *clip, insole_real_t size, insole_real_t cut_off_at)
+{
+    clip->largest_radps = insole_max(clip->largest_radps, size);
+    clip->range_radps = insole_max(clip->range_radps, cut_off_at);
+    if (DISPROOF * clip->range_radps < clip->largest_radps) {
+        clip->range_radps = ZERO;
+    }
+}
+
 static bool is_clipped(insole_gyro_clip_t *clip, uint32_t axis, insole_real_t rate,
                        insole_real_t dt_us)
 {
     insole_clip_peak_t *peak = &clip->peak[axis];
     insole_real_t size = insole_abs(rate), top = peak->top_radps;
-    if (was_cut_off(peak, size, dt_us) && !(clip->told_radps > ZERO)) {
-        bool first = !(clip->range_radps > ZERO);
-        clip->range_radps = first ? top : insole_min(top, clip->range_radps);
+    bool cut_off = was_cut_off(peak, size, dt_us);
+    if (!(clip->told_radps > ZERO)) {
+        learn_range(clip, size, cut_off ? top : ZERO);
     }
     return clip->range_radps > ZERO && size >= clip->share * clip->range_radps;
 }

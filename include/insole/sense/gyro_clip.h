@@ -1,7 +1,8 @@
 /** @file gyro_clip.h  Which axes of a gyro are at the end of their range.
  *
  *  The range is told, or recognised as it cuts off: a clipped peak stays near its top and then
- *  falls fast, a swing's own peak is round. Of several tops that were cut off the least counts.
+ *  falls fast, a swing's own peak is round. Of several tops that were cut off the largest counts,
+ *  until a rate goes far beyond it.
  *
  *  Frames  b: sensor, any mounting; each axis by itself.
  *
@@ -30,9 +31,10 @@ typedef struct {
 } insole_clip_peak_t;
 
 typedef struct {
-    insole_real_t told_radps;  /**< 0 = to be recognised */
-    insole_real_t share;       /**< of the range, from which an axis counts as clipped */
-    insole_real_t range_radps; /**< told, or the least top that was cut off; 0 = none yet */
+    insole_real_t told_radps;    /**< 0 = to be recognised */
+    insole_real_t share;         /**< of the range, from which an axis counts as clipped */
+    insole_real_t range_radps;   /**< told, or the largest top that was cut off; 0 = none yet */
+    insole_real_t largest_radps; /**< rate of any axis so far */
     insole_clip_peak_t peak[3];
 } insole_gyro_clip_t;
 
