@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# usage: cli.sh PROGRAM SCRATCH_FOLDER
+# usage: cli.sh PROGRAM SCRATCH_FOLDER SOURCE_TREE
 # The program run as people run it: what it prints and how it ends, for good and for bad input.
 set -u
-program=$1
+program=$1 tree=$3
 mkdir -p "$2" && cd "$2" || exit 1
 rm -rf ./*
 failures=0
@@ -332,6 +332,15 @@ if grep -q '^  simulate ' out; then
     run simulate absent.scenario --out simulated
     status_is 1
     has err 'absent.scenario'
+    run simulate "$tree/maps/demo/scenario" --out simulated --seed 7
+    status_is 0; empty out
+    has err 'simulated '
+    cp simulated/log.csv once.csv
+    run simulate "$tree/maps/demo/scenario" --out simulated --seed 7
+    cmp -s simulated/log.csv once.csv || fail 'equal seeds give unequal walks'
+    run replay simulated
+    status_is 0
+    has err '(as it is)'
 fi
 
 [ "$failures" -eq 0 ] && echo 'cli: fine'
