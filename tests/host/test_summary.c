@@ -120,6 +120,7 @@ START_TEST(the_summary_for_people)
     facts.screen.repeated = 2u;
     facts.screen.spikes = 3u;
     facts.screen.averaged = 40u;
+    facts.screen.evened = 5u;
     FILE *file = tmpfile();
     summary_print(file, &summary);
     ck_assert_str_eq(text_of(file),
@@ -129,7 +130,7 @@ START_TEST(the_summary_for_people)
                      "  foot still     25.0 % of the time, in 8 stances\n"
                      "  final position 1.500, -2.250, height 0.063 m, 1-sigma 0.500 m, state track\n"
                      "  refused        2 repeated stamps\n"
-                     "  repaired       3 spikes, 40 averaged\n"
+                     "  repaired       3 spikes, 5 stamps of bursts evened out, 40 averaged\n"
                      "  the log lacks  mag, rss, range\n");
     for (int kind = 0; kind < RECORD_KINDS; kind++) {
         facts.seen[kind] = 1u;

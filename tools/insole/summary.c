@@ -16,18 +16,20 @@ typedef struct {
     bool is_repaired; /* else refused */
 } trouble_t;
 
-enum { TROUBLES = 8 };
+enum { TROUBLES = 9 };
 
 static void list_troubles(const insole_screen_counts_t *counts, trouble_t troubles[TROUBLES])
 {
-    const trouble_t list[TROUBLES] = {{"repeated", "repeated stamps", counts->repeated, false},
-                                      {"backward", "stamps going back", counts->backward, false},
-                                      {"wild", "wild stamps", counts->wild, false},
-                                      {"not_finite", "not a number", counts->not_finite, false},
-                                      {"spikes", "spikes", counts->spikes, true},
-                                      {"clipped", "clipped", counts->clipped, true},
-                                      {"gaps", "gaps", counts->gaps, true},
-                                      {"averaged", "averaged", counts->averaged, true}};
+    const trouble_t list[TROUBLES] = {
+        {"repeated", "repeated stamps", counts->repeated, false},
+        {"backward", "stamps going back", counts->backward, false},
+        {"wild", "wild stamps", counts->wild, false},
+        {"not_finite", "not a number", counts->not_finite, false},
+        {"spikes", "spikes", counts->spikes, true},
+        {"clipped", "clipped", counts->clipped, true},
+        {"gaps", "gaps", counts->gaps, true},
+        {"evened", "stamps of bursts evened out", counts->evened, true},
+        {"averaged", "averaged", counts->averaged, true}};
     memcpy(troubles, list, sizeof list);
 }
 
