@@ -69,8 +69,8 @@ static void note_gyro(notes_t *notes, const replay_facts_t *facts)
 {
     if (facts->screen.clipped > 0u) {
         note(notes,
-             "the gyroscope reached the end of its range in %lu readings: choose a larger "
-             "range, 2000 deg/s fits any foot",
+             "the peaks of the gyroscope look cut off in %lu readings: choose its largest range, "
+             "2000 deg/s fits any foot",
              (unsigned long)facts->screen.clipped);
     }
     if (facts->strides > 0u && facts->fastest_radps < slow_foot_radps) {
