@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/place/floor_plan.h"
+
+#include <stddef.h>
+
+#define ZERO INSOLE_R(0.0)
+
+/* ---- a segment and a wall ---- */
+
+/* The way that is asked about, relative to the plan's origin. */
+typedef struct {
+    insole_real_t x_m, y_m;   /* where it begins */
+    insole_real_t dx_m, dy_m; /* where it goes from there */
+} way_t;
+
+/* The part of the plane that a way can touch. */
+typedef struct {
+    insole_real_t x_low_m, x_high_m, y_low_m, y_high_m;
+    insole_real_t slack_m2; /* for the side of a point as seen along the way */
+} reach_t;
+
+static insole_real_t slack_m2(insole_real_t dx_m, insole_real_t dy_m)
+{
+    return INSOLE_FLOOR_PLAN_TOUCH_M * insole_sqrt(dx_m * dx_m + dy_m * dy_m);
+}
+
+static reach_t reach_of(const way_t *way)
+{
+    insole_real_t x1_m = way->x_m + way->dx_m, y1_m = way->y_m + way->dy_m;
+    reach_t reach = {insole_min(way->x_m, x1_m) - INSOLE_FLOOR_PLAN_TOUCH_M,
+                     insole_max(way->x_m, x1_m) + INSOLE_FLOOR_PLAN_TOUCH_M,
+                     insole_min(way->y_m, y1_m) - INSOLE_FLOOR_PLAN_TOUCH_M,
+                     insole_max(way->y_m, y1_m) + INSOLE_FLOOR_PLAN_TOUCH_M,
+                     slack_m2(way->dx_m, way->dy_m)};
+    return reach;
+}
+
+/* Twice the area between the way and a point: positive when the point lies left of the way. Walls
+ * that share a corner get the same bits for it, so that no way slips between them. */
+static insole_real_t side_of_point(const way_t *way, insole_real_t x_m, insole_real_t y_m)
+{
+    return way->dx_m * (y_m - way->y_m) - way->dy_m * (x_m - way->x_m);
+}
+
+/* The slack of a wall, for the side of a point as seen along it. */
+static insole_real_t wall_slack_m2(const insole_wall_t *wall)
+{
+    return slack_m2(wall->x1_m - wall->x0_m, wall->y1_m - wall->y0_m);
+}
+
+static bool both_outside(insole_real_t low, insole_real_t high, insole_real_t a, insole_real_t b)
+{
+    return (a < low && b < low) || (a > high && b > high);
+}
+
+/* Two segments are apart when a line along x, y or one of them separates them. */
+static bool touches(const way_t *way, const reach_t *reach, const insole_wall_t *wall)
+{
+    if (both_outside(reach->x_low_m, reach->x_high_m, wall->x0_m, wall->x1_m) ||
+        both_outside(reach->y_low_m, reach->y_high_m, wall->y0_m, wall->y1_m) ||
+        both_outside(-reach->slack_m2, reach->slack_m2, side_of_point(way, wall->x0_m, wall->y0_m),
+                     side_of_point(way, wall->x1_m, wall->y1_m))) {
+        return false;
+    }
+    insole_real_t slack = wall_slack_m2(wall);
+    return !both_outside(-slack, slack, insole_wall_side(wall, way->x_m, way->y_m),
+                         insole_wall_side(wall, way->x_m + way->dx_m, way->y_m + way->dy_m));
+}
+
+/* True when the ends of the wall lie on different sides of the endless line along the way; a point
+ * on the line belongs to its right, for all walls that share the point. */
+static bool straddles(const way_t *way, const insole_wall_t *wall)
+{
+    return (side_of_point(way, wall->x0_m, wall->y0_m) > ZERO) !=
+           (side_of_point(way, wall->x1_m, wall->y1_m) > ZERO);
+}
+
+/* ---- the scan of the cells along a way, row by row ---- */
+
+typedef struct {
+    int32_t row, last_row;             /* the row being scanned, and the last */
+    int32_t left, right;               /* its columns that the way can touch */
+    int32_t block_left, block_right;   /* those of the whole way */
+    bool is_block;                     /* all columns in every row: nothing to be won by less */
+    insole_real_t x_m, y_m, dx_per_dy; /* the endless line along the way */
+} scan_t;
+
+static int32_t index_of(insole_real_t x_m, insole_real_t cells_per_m, int32_t count)
+{
+    insole_real_t last = (insole_real_t)count - INSOLE_R(0.5);
+    return (int32_t)insole_max(ZERO, insole_min(x_m * cells_per_m, last));
+}
+
+/* The columns in which the way can touch the cells of the scan's row. */
+static void narrow_columns(scan_t *scan, const insole_floor_plan_t *plan)
+{
+    insole_real_t low_m = (insole_real_t)scan->row * plan->cell_m - INSOLE_FLOOR_PLAN_TOUCH_M;
+    insole_real_t high_m = low_m + plan->cell_m + INSOLE_R(2.0) * INSOLE_FLOOR_PLAN_TOUCH_M;
+    insole_real_t x0_m = scan->x_m + (low_m - scan->y_m) * scan->dx_per_dy;
+    insole_real_t x1_m = scan->x_m + (high_m - scan->y_m) * scan->dx_per_dy;
+    int32_t left = index_of(insole_min(x0_m, x1_m) - INSOLE_FLOOR_PLAN_TOUCH_M, plan->cells_per_m,
+                            plan->columns);
+    int32_t right = index_of(insole_max(x0_m, x1_m) + INSOLE_FLOOR_PLAN_TOUCH_M, plan->cells_per_m,
+                             plan->columns);
+    scan->left = left > scan->block_left ? left : scan->block_left;
+    scan->right = right < scan->block_right ? right : scan->block_right;
+}
+
+/* Begins with the lowest row. */
+static inline scan_t begin_scan(const insole_floor_plan_t *plan, const way_t *way, const reach_t *reach)
+{
+    scan_t scan;
+    scan.row = index_of(reach->y_low_m, plan->cells_per_m, plan->rows);
+    scan.last_row = index_of(reach->y_high_m, plan->cells_per_m, plan->rows);
+    scan.left = scan.block_left = index_of(reach->x_low_m, plan->cells_per_m, plan->columns);
+    scan.right = scan.block_right = index_of(reach->x_high_m, plan->cells_per_m, plan->columns);
+    scan.is_block =
+        scan.right - scan.left <= 1 || insole_abs(way->dy_m) < INSOLE_FLOOR_PLAN_TOUCH_M;
+    if (!scan.is_block) {
+        scan.x_m = way->x_m;
+        scan.y_m = way->y_m;
+        scan.dx_per_dy = way->dx_m / way->dy_m;
+        narrow_columns(&scan, plan);
+    }
+    return scan;
+}
+
+/* Goes on to the next row; false after the last. */
+static bool next_row(scan_t *scan, const insole_floor_plan_t *plan)
+{
+    if (scan->row >= scan->last_row) {
+        return false;
+    }
+    scan->row++;
+    if (!scan->is_block) {
+        narrow_columns(scan, plan);
+    }
+    return true;
+}
+
+/* ---- questions ---- */
+
+/* True when coordinates are numbers and none is far beyond any map. */
+static bool in_range(insole_real_t x0_m, insole_real_t y0_m, insole_real_t x1_m, insole_real_t y1_m)
+{
+    return x0_m * x0_m + y0_m * y0_m + x1_m * x1_m + y1_m * y1_m <=
+           INSOLE_FLOOR_PLAN_LIMIT_M * INSOLE_FLOOR_PLAN_LIMIT_M;
+}
+
+static way_t way_in(const insole_floor_plan_t *plan, insole_real_t x0_m, insole_real_t y0_m,
+                    insole_real_t x1_m, insole_real_t y1_m)
+{
+    way_t way = {x0_m - plan->origin_x_m, y0_m - plan->origin_y_m, x1_m - x0_m, y1_m - y0_m};
+    return way;
+}
+
+bool insole_floor_plan_crosses(const insole_floor_plan_t *plan, insole_real_t x0_m,
+                               insole_real_t y0_m, insole_real_t x1_m, insole_real_t y1_m)
+{
+    if (plan == NULL || !in_range(x0_m, y0_m, x1_m, y1_m)) {
+        return true;
+    }
+    way_t way = way_in(plan, x0_m, y0_m, x1_m, y1_m);
+    reach_t reach = reach_of(&way);
+    scan_t scan = begin_scan(plan, &way, &reach);
+    do {
+        /* the cells of a row lie side by side, and so do their entries */
+        const insole_floor_plan_cell_t *cells = &plan->cells[scan.row * plan->columns];
+        const uint16_t *end = &plan->entries[cells[scan.right + 1].begin];
+        for (const uint16_t *i = &plan->entries[cells[scan.left].begin]; i < end; i++) {
+            if (touches(&way, &reach, &plan->walls[*i])) {
+                return true;
+            }
+        }
+    } while (next_row(&scan, plan));
+    return false;
+}
+
+/* Adds to the windings what changes on the way through one edge: +1 into its left, -1 out of it. */
+static void wind(const way_t *way, const insole_wall_t *edge, uint8_t *windings)
+{
+    if (straddles(way, edge)) {
+        bool before = insole_wall_side(edge, way->x_m, way->y_m) > ZERO;
+        bool after = insole_wall_side(edge, way->x_m + way->dx_m, way->y_m + way->dy_m) > ZERO;
+        *windings = (uint8_t)(*windings + after - before);
+    }
+}
+
+bool insole_floor_plan_inside(const insole_floor_plan_t *plan, insole_real_t x_m, insole_real_t y_m)
+{
+    if (plan == NULL || !in_range(x_m, y_m, ZERO, ZERO)) {
+        return false;
+    }
+    insole_real_t x = x_m - plan->origin_x_m, y = y_m - plan->origin_y_m;
+    insole_real_t column = x * plan->cells_per_m, row = y * plan->cells_per_m;
+    if (!(column >= ZERO && column < (insole_real_t)plan->columns && row >= ZERO &&
+          row < (insole_real_t)plan->rows)) {
+        return false;
+    }
+    int32_t i = (int32_t)column, j = (int32_t)row;
+    const insole_floor_plan_cell_t *cell = &plan->cells[j * plan->columns + i];
+    way_t way = {((insole_real_t)i + plan->spot_x) * plan->cell_m,
+                 ((insole_real_t)j + plan->spot_y) * plan->cell_m, ZERO, ZERO};
+    way.dx_m = x - way.x_m;
+    way.dy_m = y - way.y_m;
+    uint8_t outlines = cell->outlines, holes = cell->holes;
+    for (uint32_t entry = cell[0].begin; entry < cell[1].begin; entry++) {
+        uint16_t number = plan->entries[entry];
+        if (number < plan->ring_walls) {
+            wind(&way, &plan->walls[number], number < plan->outline_walls ? &outlines : &holes);
+        }
+    }
+    return outlines != 0 && holes == 0;
+}
+
+/* Share of the way at which it passes the wall to its other side; negative when it does not. */
+static insole_real_t passing_share(const way_t *way, const insole_wall_t *wall)
+{
+    if (straddles(way, wall)) {
+        insole_real_t slack = wall_slack_m2(wall);
+        insole_real_t from = insole_wall_side(wall, way->x_m, way->y_m);
+        insole_real_t to = insole_wall_side(wall, way->x_m + way->dx_m, way->y_m + way->dy_m);
+        if ((from > slack && to < -slack) || (from < -slack && to > slack)) {
+            return from / (from - to);
+        }
+    }
+    return INSOLE_R(-1.0);
+}
+
+/* A wall stands in several cells; the cell in which the way passes it counts it. */
+static bool owns(const insole_floor_plan_t *plan, const scan_t *scan, int32_t column,
+                 insole_real_t x_m, insole_real_t y_m)
+{
+    return index_of(x_m, plan->cells_per_m, plan->columns) == column &&
+           index_of(y_m, plan->cells_per_m, plan->rows) == scan->row;
+}
+
+static void count_passed(const insole_floor_plan_t *plan, const way_t *way, const scan_t *scan,
+                         int32_t column, insole_walls_between_t *between)
+{
+    const insole_floor_plan_cell_t *cell = &plan->cells[scan->row * plan->columns + column];
+    for (uint32_t i = cell[0].begin; i < cell[1].begin; i++) {
+        const insole_wall_t *wall = &plan->walls[plan->entries[i]];
+        insole_real_t share = passing_share(way, wall);
+        if (share >= ZERO &&
+            owns(plan, scan, column, way->x_m + share * way->dx_m, way->y_m + share * way->dy_m)) {
+            between->count++;
+            between->loss_db += wall->loss_db;
+        }
+    }
+}
+
+insole_status_t insole_floor_plan_walls_between(const insole_floor_plan_t *plan, insole_real_t x0_m,
+                                                insole_real_t y0_m, insole_real_t x1_m,
+                                                insole_real_t y1_m, insole_walls_between_t *between)
+{
+    if (plan == NULL || between == NULL) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!in_range(x0_m, y0_m, x1_m, y1_m)) {
+        return INSOLE_ERR_VALUE;
+    }
+    way_t way = way_in(plan, x0_m, y0_m, x1_m, y1_m);
+    reach_t reach = reach_of(&way);
+    scan_t scan = begin_scan(plan, &way, &reach);
+    between->count = 0;
+    between->loss_db = ZERO;
+    do {
+        for (int32_t column = scan.left; column <= scan.right; column++) {
+            count_passed(plan, &way, &scan, column, between);
+        }
+    } while (next_row(&scan, plan));
+    return INSOLE_OK;
+}
+
+/* Squared distance from a point to a wall. */
+static insole_real_t distance2_m2(insole_real_t x_m, insole_real_t y_m, const insole_wall_t *wall)
+{
+    insole_real_t wx = wall->x1_m - wall->x0_m, wy = wall->y1_m - wall->y0_m;
+    insole_real_t px = x_m - wall->x0_m, py = y_m - wall->y0_m;
+    insole_real_t share = (px * wx + py * wy) / (wx * wx + wy * wy);
+    share = insole_max(ZERO, insole_min(share, INSOLE_R(1.0)));
+    return insole_square(px - share * wx) + insole_square(py - share * wy);
+}
+
+insole_status_t insole_floor_plan_clearance(const insole_floor_plan_t *plan, insole_real_t x_m,
+                                            insole_real_t y_m, insole_real_t limit_m,
+                                            insole_real_t *distance_m)
+{
+    if (plan == NULL || distance_m == NULL) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!in_range(x_m, y_m, limit_m, ZERO) || !(limit_m > ZERO)) {
+        return INSOLE_ERR_VALUE;
+    }
+    way_t way = way_in(plan, x_m, y_m, x_m, y_m);
+    insole_real_t scale = plan->cells_per_m, nearest_m2 = limit_m * limit_m;
+    int32_t left = index_of(way.x_m - limit_m, scale, plan->columns);
+    int32_t right = index_of(way.x_m + limit_m, scale, plan->columns);
+    int32_t top = index_of(way.y_m + limit_m, scale, plan->rows);
+    for (int32_t row = index_of(way.y_m - limit_m, scale, plan->rows); row <= top; row++) {
+        const insole_floor_plan_cell_t *cells = &plan->cells[row * plan->columns];
+        for (uint32_t i = cells[left].begin; i < cells[right + 1].begin; i++) {
+            nearest_m2 = insole_min(nearest_m2,
+                                    distance2_m2(way.x_m, way.y_m, &plan->walls[plan->entries[i]]));
+        }
+    }
+    *distance_m = insole_sqrt(nearest_m2);
+    return INSOLE_OK;
+}
