@@ -107,7 +107,8 @@ static void narrow_columns(scan_t *scan, const insole_floor_plan_t *plan)
 }
 
 /* Begins with the lowest row. */
-static inline scan_t begin_scan(const insole_floor_plan_t *plan, const way_t *way, const reach_t *reach)
+static inline scan_t begin_scan(const insole_floor_plan_t *plan, const way_t *way,
+                                const reach_t *reach)
 {
     scan_t scan;
     scan.row = index_of(reach->y_low_m, plan->cells_per_m, plan->rows);

@@ -91,7 +91,7 @@ insole_status_t insole_propagation_range(const insole_propagation_config_t *conf
     insole_real_t loss_db =
         ap->p0_dbm - rss_dbm - obstacles_db(config, wall_loss_db, body_share); /* of distance */
     if (!are_losses(wall_loss_db, body_share) || !insole_is_finite(loss_db) ||
-        !(ap->exponent > ZERO && insole_is_finite(ap->exponent))) {
+        !insole_ap_has_model(ap)) {
         return INSOLE_ERR_VALUE;
     }
     insole_real_t db_per_e = DB_PER_NEPER * ap->exponent; /* e times as far loses so much more */

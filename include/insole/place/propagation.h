@@ -66,6 +66,19 @@ typedef struct {
     insole_real_t near_dbm; /**< heard at least so strong, it is near: mean RSS at 1.5 m */
 } insole_ap_t;
 
+/** Is the place known? */
+static inline bool insole_ap_has_place(const insole_ap_t *ap)
+{
+    return insole_vec3_is_finite(insole_vec3(ap->x_m, ap->y_m, ap->z_m));
+}
+
+/** Is it known how strong it is heard? */
+static inline bool insole_ap_has_model(const insole_ap_t *ap)
+{
+    return insole_is_finite(ap->p0_dbm) && ap->exponent > INSOLE_R(0.0) &&
+           insole_is_finite(ap->exponent);
+}
+
 /** What is to be heard of an access point. */
 typedef struct {
     insole_real_t distance_m;
