@@ -91,6 +91,12 @@ static int32_t index_of(insole_real_t x_m, insole_real_t cells_per_m, int32_t co
     return (int32_t)insole_max(ZERO, insole_min(x_m * cells_per_m, last));
 }
 
+/* A row's cells lie side by side, and so do their entries. */
+static const insole_floor_plan_cell_t *first_cell(const insole_floor_plan_t *plan, int32_t row)
+{
+    return plan->cells + (ptrdiff_t)row * plan->columns;
+}
+
 /* The columns in which the way can touch the cells of the scan's row. */
 static void narrow_columns(scan_t *scan, const insole_floor_plan_t *plan)
 {
@@ -117,9 +123,10 @@ static inline scan_t begin_scan(const insole_floor_plan_t *plan, const way_t *wa
     scan.right = scan.block_right = index_of(reach->x_high_m, plan->cells_per_m, plan->columns);
     scan.is_block =
         scan.right - scan.left <= 1 || insole_abs(way->dy_m) < INSOLE_FLOOR_PLAN_TOUCH_M;
+    scan.x_m = way->x_m;
+    scan.y_m = way->y_m;
+    scan.dx_per_dy = ZERO;
     if (!scan.is_block) {
-        scan.x_m = way->x_m;
-        scan.y_m = way->y_m;
         scan.dx_per_dy = way->dx_m / way->dy_m;
         narrow_columns(&scan, plan);
     }
@@ -165,11 +172,10 @@ bool insole_floor_plan_crosses(const insole_floor_plan_t *plan, insole_real_t x0
     reach_t reach = reach_of(&way);
     scan_t scan = begin_scan(plan, &way, &reach);
     do {
-        /* the cells of a row lie side by side, and so do their entries */
-        const insole_floor_plan_cell_t *cells = &plan->cells[scan.row * plan->columns];
+        const insole_floor_plan_cell_t *cells = first_cell(plan, scan.row);
         const uint16_t *end = &plan->entries[cells[scan.right + 1].begin];
         for (const uint16_t *i = &plan->entries[cells[scan.left].begin]; i < end; i++) {
-            if (touches(&way, &reach, &plan->walls[*i])) {
+            if (touches(&way, &reach, &plan->walls[*i])) { /* [TwoOrder (40)] */
                 return true;
             }
         }
@@ -199,7 +205,7 @@ bool insole_floor_plan_inside(const insole_floor_plan_t *plan, insole_real_t x_m
         return false;
     }
     int32_t i = (int32_t)column, j = (int32_t)row;
-    const insole_floor_plan_cell_t *cell = &plan->cells[j * plan->columns + i];
+    const insole_floor_plan_cell_t *cell = first_cell(plan, j) + i;
     way_t way = {((insole_real_t)i + plan->spot_x) * plan->cell_m,
                  ((insole_real_t)j + plan->spot_y) * plan->cell_m, ZERO, ZERO};
     way.dx_m = x - way.x_m;
@@ -239,7 +245,7 @@ static bool owns(const insole_floor_plan_t *plan, const scan_t *scan, int32_t co
 static void count_passed(const insole_floor_plan_t *plan, const way_t *way, const scan_t *scan,
                          int32_t column, insole_walls_between_t *between)
 {
-    const insole_floor_plan_cell_t *cell = &plan->cells[scan->row * plan->columns + column];
+    const insole_floor_plan_cell_t *cell = first_cell(plan, scan->row) + column;
     for (uint32_t i = cell[0].begin; i < cell[1].begin; i++) {
         const insole_wall_t *wall = &plan->walls[plan->entries[i]];
         insole_real_t share = passing_share(way, wall);
@@ -300,7 +306,7 @@ insole_status_t insole_floor_plan_clearance(const insole_floor_plan_t *plan, ins
     int32_t right = index_of(way.x_m + limit_m, scale, plan->columns);
     int32_t top = index_of(way.y_m + limit_m, scale, plan->rows);
     for (int32_t row = index_of(way.y_m - limit_m, scale, plan->rows); row <= top; row++) {
-        const insole_floor_plan_cell_t *cells = &plan->cells[row * plan->columns];
+        const insole_floor_plan_cell_t *cells = first_cell(plan, row);
         for (uint32_t i = cells[left].begin; i < cells[right + 1].begin; i++) {
             nearest_m2 = insole_min(nearest_m2,
                                     distance2_m2(way.x_m, way.y_m, &plan->walls[plan->entries[i]]));

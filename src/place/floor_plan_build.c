@@ -38,16 +38,25 @@ static bool is_ring(const insole_floor_plan_line_t *line)
     return line->kind != INSOLE_LINE_WALL;
 }
 
+static const insole_real_t *point_of(const insole_floor_plan_line_t *line, uint32_t i)
+{
+    return &line->xy_m[2u * (size_t)i];
+}
+
+static bool is_good_point(const insole_real_t *xy_m)
+{
+    return insole_abs(xy_m[0]) <= COORDINATE_LIMIT_M && insole_abs(xy_m[1]) <= COORDINATE_LIMIT_M;
+}
+
 static bool is_good_line(const insole_floor_plan_line_t *line)
 {
-    if (line->kind < INSOLE_LINE_OUTLINE || line->kind > INSOLE_LINE_WALL ||
+    if ((uint32_t)line->kind > (uint32_t)INSOLE_LINE_WALL ||
         line->points < (is_ring(line) ? 3u : 2u) ||
         !(line->loss_db >= ZERO && line->loss_db <= LOSS_LIMIT_DB)) {
         return false;
     }
     for (uint32_t i = 0; i < line->points; i++) {
-        if (!(insole_abs(line->xy_m[2 * i]) <= COORDINATE_LIMIT_M &&
-              insole_abs(line->xy_m[2 * i + 1]) <= COORDINATE_LIMIT_M)) {
+        if (!is_good_point(point_of(line, i))) {
             return false;
         }
     }
@@ -57,11 +66,11 @@ static bool is_good_line(const insole_floor_plan_line_t *line)
 static void stretch(extent_t *extent, const insole_floor_plan_line_t *line)
 {
     for (uint32_t i = 0; i < line->points; i++) {
-        insole_real_t x_m = line->xy_m[2 * i], y_m = line->xy_m[2 * i + 1];
-        extent->x_low_m = insole_min(extent->x_low_m, x_m);
-        extent->x_high_m = insole_max(extent->x_high_m, x_m);
-        extent->y_low_m = insole_min(extent->y_low_m, y_m);
-        extent->y_high_m = insole_max(extent->y_high_m, y_m);
+        const insole_real_t *p = point_of(line, i);
+        extent->x_low_m = insole_min(extent->x_low_m, p[0]);
+        extent->x_high_m = insole_max(extent->x_high_m, p[0]);
+        extent->y_low_m = insole_min(extent->y_low_m, p[1]);
+        extent->y_high_m = insole_max(extent->y_high_m, p[1]);
     }
     extent->edges += is_ring(line) ? line->points : line->points - 1u;
 }
@@ -84,7 +93,7 @@ static insole_status_t survey(const insole_floor_plan_line_t *lines, uint32_t co
             return INSOLE_ERR_ROOM;
         }
     }
-    return INSOLE_OK;
+    return extent->edges > 0u ? INSOLE_OK : INSOLE_ERR_STATE;
 }
 
 /* The origin is of whole metres, so that coordinates lose next to nothing against it. */
@@ -97,7 +106,7 @@ static insole_real_t whole_metres_below(insole_real_t x_m)
 
 static void add_wall(site_t *site, const insole_floor_plan_line_t *line, uint32_t from, uint32_t to)
 {
-    const insole_real_t *a = &line->xy_m[2 * from], *b = &line->xy_m[2 * to];
+    const insole_real_t *a = point_of(line, from), *b = point_of(line, to);
     insole_real_t x_m = site->plan.origin_x_m, y_m = site->plan.origin_y_m;
     insole_wall_t wall = {a[0] - x_m, a[1] - y_m, b[0] - x_m, b[1] - y_m, line->loss_db};
     if (wall.x0_m != wall.x1_m || wall.y0_m != wall.y1_m) {
@@ -111,7 +120,7 @@ static insole_real_t area2_m2(const insole_floor_plan_line_t *ring)
     const insole_real_t *p = ring->xy_m;
     insole_real_t sum_m2 = ZERO;
     for (uint32_t i = 2; i < ring->points; i++) {
-        const insole_real_t *a = &p[2 * i - 2], *b = &p[2 * i];
+        const insole_real_t *a = point_of(ring, i - 1u), *b = point_of(ring, i);
         sum_m2 += (a[0] - p[0]) * (b[1] - p[1]) - (a[1] - p[1]) * (b[0] - p[0]);
     }
     return sum_m2;

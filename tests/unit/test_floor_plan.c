@@ -245,7 +245,7 @@ static bool crosses_segment(segment_t s)
                                      (insole_real_t)s.x1, (insole_real_t)s.y1);
 }
 
-enum { PLANS = 12, WAYS_PER_PLAN = 3000 };
+enum { PLANS = 12, WAYS_PER_PLAN = 2000 };
 
 /* +1: must meet a wall, and does. -1: must not, and does not. 0: either may be. */
 static int check_crosses(segment_t s)
@@ -416,10 +416,11 @@ START_TEST(walls_on_borders_of_cells)
         draw_begin(&drawing);
         draw_box(&drawing, INSOLE_LINE_OUTLINE, 5.0, 0.0, 0.0, 40.0, 30.0);
         double step = round == 0 ? 2.0 : (double)cell_m;
-        for (int i = 2; i < 14; i++) {
-            double at = step * i - 1.0; /* the origin lies 1 m before the drawing */
-            draw_wall(&drawing, 5.0, at, 1.0, at, 29.0);
-            draw_wall(&drawing, 5.0, 1.0, at, 39.0, at);
+        for (int i = 0; i < 24; i++) {
+            double at = step * (2 + i % 4) - 1.0; /* the origin lies 1 m before the drawing */
+            double from = 1.0 + 4.0 * (i / 4);
+            draw_wall(&drawing, 5.0, at, from, at, from + 3.5);
+            draw_wall(&drawing, 5.0, from, at, from + 4.0, at);
         }
         ck_assert_int_eq(draw_build(&drawing), INSOLE_OK);
         ck_assert(round == 0 || drawing.plan.cell_m == cell_m);
@@ -465,6 +466,154 @@ START_TEST(turned_and_shifted_answers_alike)
         }
     }
     ck_assert_int_gt(told, WAYS_PER_PLAN * 9 / 10);
+}
+END_TEST
+
+/* ---- what must hold between answers, in a plan too large for brute force ---- */
+
+/* Rooms of 4 m x 4 m with doors of 1 m, and a yard in the middle. */
+static void draw_offices(int side)
+{
+    draw_begin(&drawing);
+    draw_box(&drawing, INSOLE_LINE_OUTLINE, 6.0, 0.0, 0.0, 4.0 * side, 4.0 * side);
+    draw_box(&drawing, INSOLE_LINE_HOLE, 6.0, 13.0, 13.0, 19.0, 18.0);
+    for (int i = 1; i < side; i++) {
+        for (int k = 0; k < side; k++) {
+            double door = 1.0 + (i * 7 + k * 3) % 3;
+            double across[] = {4.0 * i, 4.0 * k, 4.0 * i, 4.0 * k + door};
+            double rest[] = {4.0 * i, 4.0 * k + door + 1.0, 4.0 * i, 4.0 * k + 4.0};
+            draw_line(&drawing, INSOLE_LINE_WALL, 3.0, across, 2);
+            draw_line(&drawing, INSOLE_LINE_WALL, 3.0, rest, 2);
+            draw_wall(&drawing, 3.0, 4.0 * k, 4.0 * i, 4.0 * k + 3.0, 4.0 * i);
+        }
+    }
+    draw_move(&drawing, 0.3, -700.0, 90.0);
+    ck_assert_int_eq(draw_build(&drawing), INSOLE_OK);
+}
+
+static spot_t office_spot(void)
+{
+    static const frame_t f = {0.3, -700.0, 90.0, 1e-4};
+    spot_t p = moved(&f, draw_uniform(&rng, -1.0, 33.0), draw_uniform(&rng, -1.0, 33.0));
+    p.x = (double)(insole_real_t)p.x;
+    p.y = (double)(insole_real_t)p.y;
+    return p;
+}
+
+static insole_walls_between_t walls_between(spot_t a, spot_t b)
+{
+    insole_walls_between_t between;
+    ck_assert_int_eq(insole_floor_plan_walls_between(&drawing.plan, (insole_real_t)a.x,
+                                                     (insole_real_t)a.y, (insole_real_t)b.x,
+                                                     (insole_real_t)b.y, &between),
+                     INSOLE_OK);
+    return between;
+}
+
+static bool inside(spot_t p)
+{
+    return insole_floor_plan_inside(&drawing.plan, (insole_real_t)p.x, (insole_real_t)p.y);
+}
+
+static double clearance(spot_t p, double limit_m)
+{
+    insole_real_t distance_m;
+    ck_assert_int_eq(insole_floor_plan_clearance(&drawing.plan, (insole_real_t)p.x,
+                                                 (insole_real_t)p.y, (insole_real_t)limit_m,
+                                                 &distance_m),
+                     INSOLE_OK);
+    return (double)distance_m;
+}
+
+START_TEST(both_ways_alike)
+{
+    insole_rng_seed(&rng, 800u);
+    draw_offices(8);
+    for (int i = 0; i < 20000; i++) {
+        spot_t a = office_spot(), b = office_spot();
+        ck_assert(crosses(&drawing.plan, a, b) == crosses(&drawing.plan, b, a));
+        insole_walls_between_t there = walls_between(a, b), back = walls_between(b, a);
+        ck_assert_uint_eq(there.count, back.count);
+        ASSERT_NEAR(there.loss_db, back.loss_db, 1e-4, "dB");
+    }
+}
+END_TEST
+
+/* A way meets a wall when one of its halves does; walls add up over the halves. */
+START_TEST(halves_make_the_whole)
+{
+    int met = 0;
+    insole_rng_seed(&rng, 810u);
+    draw_offices(8);
+    for (int i = 0; i < 20000; i++) {
+        spot_t a = office_spot(), b = office_spot();
+        double t = i & 1 ? 0.02 : 1.0;
+        b.x = (double)(insole_real_t)(a.x + t * (b.x - a.x));
+        b.y = (double)(insole_real_t)(a.y + t * (b.y - a.y));
+        spot_t half = {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
+        if (clearance(half, 0.02) < 0.01 || clearance(a, 0.02) < 0.01 ||
+            clearance(b, 0.02) < 0.01) {
+            continue;
+        }
+        bool whole = crosses(&drawing.plan, a, b);
+        ck_assert(whole == (crosses(&drawing.plan, a, half) || crosses(&drawing.plan, half, b)));
+        ck_assert_uint_le(walls_between(a, b).count, 200u);
+        ck_assert(whole || walls_between(a, b).count == 0u);
+        met += whole;
+    }
+    ck_assert_int_gt(met, 5000);
+    ck_assert_int_lt(met, 15000);
+}
+END_TEST
+
+/* Nobody leaves the walkable area without meeting a wall; within the clearance there is none. */
+START_TEST(answers_agree_with_each_other)
+{
+    insole_rng_seed(&rng, 820u);
+    draw_offices(8);
+    for (int i = 0; i < 20000; i++) {
+        spot_t a = office_spot(), b = office_spot();
+        double free_m = clearance(a, 2.0), angle = draw_uniform(&rng, -3.2, 3.2);
+        ck_assert(inside(a) == inside(b) || crosses(&drawing.plan, a, b));
+        spot_t near = {a.x + 0.99 * free_m * cos(angle), a.y + 0.99 * free_m * sin(angle)};
+        spot_t beyond = {a.x + 0.5 * cos(angle), a.y + 0.5 * sin(angle)};
+        ck_assert(free_m < 0.2 || !crosses(&drawing.plan, a, near));
+        ck_assert(free_m < 0.2 || inside(a) == inside(near));
+        ASSERT_AT_MOST(fabs(clearance(beyond, 2.0) - free_m), 0.5 + 1e-4, "m");
+    }
+}
+END_TEST
+
+/* Walkers that take no step through a wall stay in the building, and get about in it. */
+START_TEST(walkers_stay_in)
+{
+    enum { WALKERS = 100, STEPS = 600 };
+    int refused = 0, far = 0;
+    insole_rng_seed(&rng, 830u);
+    draw_offices(8);
+    for (int i = 0; i < WALKERS; i++) {
+        spot_t p = office_spot();
+        while (!inside(p) || clearance(p, 0.1) < 0.01) {
+            p = office_spot();
+        }
+        spot_t start = p;
+        double heading = draw_uniform(&rng, -3.2, 3.2);
+        for (int k = 0; k < STEPS; k++) {
+            heading += draw_uniform(&rng, -0.5, 0.5);
+            spot_t next = {(double)(insole_real_t)(p.x + 0.7 * cos(heading)),
+                           (double)(insole_real_t)(p.y + 0.7 * sin(heading))};
+            if (crosses(&drawing.plan, p, next)) {
+                heading += 1.0;
+                refused++;
+            } else {
+                p = next;
+            }
+            ck_assert(inside(p));
+        }
+        far += hypot(p.x - start.x, p.y - start.y) > 4.0;
+    }
+    ck_assert_int_gt(refused, WALKERS * STEPS / 50);
+    ck_assert_int_gt(far, WALKERS / 3);
 }
 END_TEST
 
@@ -545,6 +694,10 @@ Suite *insole_suite(void)
     suite_add(suite, "neat numbers as by brute force", neat_numbers_as_by_brute_force);
     suite_add(suite, "walls on borders of cells", walls_on_borders_of_cells);
     suite_add(suite, "turned and shifted answers alike", turned_and_shifted_answers_alike);
+    suite_add(suite, "both ways alike", both_ways_alike);
+    suite_add(suite, "halves make the whole", halves_make_the_whole);
+    suite_add(suite, "answers agree with each other", answers_agree_with_each_other);
+    suite_add(suite, "walkers stay in", walkers_stay_in);
     suite_add(suite, "a plan in flash", a_plan_in_flash);
     suite_add(suite, "bad input", bad_input);
     return suite;

@@ -252,6 +252,78 @@ START_TEST(far_plan_is_as_sharp)
 }
 END_TEST
 
+/* A plan is numbers and tables: elsewhere, as in flash, the same tables give the same answers. */
+START_TEST(tables_can_be_moved)
+{
+    static insole_wall_t walls[PLAN_POINTS_MAX];
+    static insole_floor_plan_cell_t cells[3 * PLAN_POINTS_MAX];
+    static uint16_t entries[PLAN_ENTRIES_MAX];
+    insole_rng_seed(&rng, 40u);
+    draw_random(&drawing, &rng, 40u);
+    ck_assert_int_eq(draw_build(&drawing), INSOLE_OK);
+    insole_floor_plan_t plan = drawing.plan;
+    memcpy(walls, plan.walls, plan.wall_count * sizeof walls[0]);
+    memcpy(cells, plan.cells, (cell_count(&plan) + 1u) * sizeof cells[0]);
+    memcpy(entries, plan.entries, entry_count(&plan) * sizeof entries[0]);
+    plan.walls = walls;
+    plan.cells = cells;
+    plan.entries = entries;
+    for (int i = 0; i < 3000; i++) {
+        insole_real_t q[4];
+        for (int k = 0; k < 4; k++) {
+            q[k] = (insole_real_t)draw_uniform(&rng, -2.0, 42.0);
+        }
+        bool crosses = insole_floor_plan_crosses(&plan, q[0], q[1], q[2], q[3]);
+        ck_assert(crosses == insole_floor_plan_crosses(&drawing.plan, q[0], q[1], q[2], q[3]));
+        bool inside = insole_floor_plan_inside(&plan, q[0], q[1]);
+        ck_assert(inside == insole_floor_plan_inside(&drawing.plan, q[0], q[1]));
+    }
+}
+END_TEST
+
+/* Lines of any shape and size are built or refused, and what is built can be asked anything. */
+START_TEST(whatever_is_drawn)
+{
+    int built = 0;
+    insole_rng_seed(&rng, 50u);
+    for (int i = 0; i < 1500; i++) {
+        double wide = pow(10.0, draw_uniform(&rng, -4.0, 5.0));
+        draw_begin(&drawing);
+        for (uint32_t k = insole_rng_bits(&rng) % 6u + 1u; k > 0; k--) {
+            double xy[2 * 20];
+            uint32_t points = 2u + insole_rng_bits(&rng) % 18u;
+            for (uint32_t n = 0; n < 2u * points; n++) {
+                bool again = n >= 2u && (insole_rng_bits(&rng) & 3u) == 0u;
+                xy[n] = again ? xy[n - 2u] : draw_uniform(&rng, -wide, wide);
+            }
+            draw_line(&drawing, (insole_line_kind_t)(insole_rng_bits(&rng) % 3u), 1.0, xy, points);
+        }
+        if (draw_build(&drawing) != INSOLE_OK) {
+            continue;
+        }
+        built++;
+        for (int k = 0; k < 50; k++) {
+            segment_t s = {
+                draw_uniform(&rng, -2.0, 2.0) * wide, draw_uniform(&rng, -2.0, 2.0) * wide,
+                draw_uniform(&rng, -2.0, 2.0) * wide, draw_uniform(&rng, -2.0, 2.0) * wide};
+            insole_walls_between_t between;
+            insole_status_t status = insole_floor_plan_walls_between(
+                &drawing.plan, (insole_real_t)s.x0, (insole_real_t)s.y0, (insole_real_t)s.x1,
+                (insole_real_t)s.y1, &between);
+            ck_assert_int_eq(status, INSOLE_OK);
+            ck_assert_uint_le(between.count, drawing.plan.wall_count);
+            bool crosses =
+                insole_floor_plan_crosses(&drawing.plan, (insole_real_t)s.x0, (insole_real_t)s.y0,
+                                          (insole_real_t)s.x1, (insole_real_t)s.y1);
+            double distance = drawing_distance(&drawing, s);
+            ck_assert(crosses || distance > 0.9e-3 - 1e-6 * wide);
+            ck_assert(!crosses || distance < 2e-3 + 1e-6 * wide);
+        }
+    }
+    ck_assert_int_gt(built, 1000);
+}
+END_TEST
+
 START_TEST(refuses_bad_drawings)
 {
     static const insole_real_t good_xy[] = {0, 0, 9, 0, 9, 9, 0, 9};
@@ -331,6 +403,8 @@ Suite *insole_suite(void)
     suite_add(suite, "entries stay within 16 bits", entries_stay_within_sixteen_bits);
     suite_add(suite, "no edge through a reference point", no_edge_runs_through_a_reference_point);
     suite_add(suite, "far plan is as sharp", far_plan_is_as_sharp);
+    suite_add(suite, "tables can be moved", tables_can_be_moved);
+    suite_add(suite, "whatever is drawn", whatever_is_drawn);
     suite_add(suite, "refuses bad drawings", refuses_bad_drawings);
     suite_add(suite, "refuses bad memory", refuses_bad_memory);
     return suite;

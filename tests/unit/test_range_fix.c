@@ -2,6 +2,7 @@
 #include "insole/place/range_fix.h"
 
 #include "anchors.h"
+#include "rtt.h"
 #include "suite.h"
 
 static insole_range_fix_config_t config;
@@ -372,6 +373,122 @@ START_TEST(whatever_comes_in)
 }
 END_TEST
 
+/* ---- symmetry ---- */
+
+START_TEST(order_does_not_matter)
+{
+    insole_rng_seed(&rng, 170u);
+    set_defaults();
+    for (int i = 0; i < 200; i++) {
+        insole_anchor_fix_t fix, turned;
+        place_random(6);
+        measure(uniform(3.0, 17.0), uniform(2.0, 13.0), 1.5, 1.0);
+        ck_assert_int_eq(solve_ranges(NULL, &fix), INSOLE_OK);
+        for (uint32_t k = 0; k < 3; k++) {
+            insole_range_t range = ranges[k];
+            ranges[k] = ranges[5u - k];
+            ranges[5u - k] = range;
+        }
+        ck_assert_int_eq(solve_ranges(NULL, &turned), INSOLE_OK);
+        ASSERT_AT_MOST(miss(&turned, (double)fix.x_m, (double)fix.y_m), 3e-3, "m");
+        ASSERT_NEAR(turned.P.xx, fix.P.xx, 5e-3 * (double)fix.P.xx, "m2");
+    }
+}
+END_TEST
+
+/* What comes in two parts, with memory of the first, tells as much as what comes at once. */
+START_TEST(in_parts_or_at_once)
+{
+    insole_rng_seed(&rng, 180u);
+    set_sharp();
+    for (int i = 0; i < 200; i++) {
+        insole_anchor_fix_t once, parts;
+        place_random(8);
+        measure(uniform(5.0, 15.0), uniform(4.0, 11.0), 0.0, 0.02);
+        ck_assert_int_eq(solve_ranges(NULL, &once), INSOLE_OK);
+        ck_assert_int_eq(insole_range_fix_solve(&config, aps, APS_MAX, ranges, 4, NULL, &parts),
+                         INSOLE_OK);
+        ck_assert_int_eq(
+            insole_range_fix_solve(&config, aps, APS_MAX, ranges + 4, 4, &parts, &parts),
+            INSOLE_OK);
+        ASSERT_AT_MOST(miss(&parts, (double)once.x_m, (double)once.y_m), 2e-3, "m");
+        ASSERT_NEAR(parts.P.xx, once.P.xx, 0.05 * (double)once.P.xx, "m2");
+        ASSERT_NEAR(parts.P.yy, once.P.yy, 0.05 * (double)once.P.yy, "m2");
+    }
+}
+END_TEST
+
+/* More of the same makes surer, never less sure. */
+START_TEST(more_ranges_make_surer)
+{
+    insole_rng_seed(&rng, 190u);
+    set_sharp();
+    place_random(8);
+    measure(9.0, 8.0, 0.0, 0.0);
+    insole_anchor_fix_t fix;
+    double before = HUGE_VAL;
+    for (count = 1; count <= APS_MAX; count++) {
+        ck_assert_int_eq(solve_ranges(NULL, &fix), INSOLE_OK);
+        double trace = (double)fix.P.xx + (double)fix.P.yy;
+        ASSERT_AT_MOST(trace, before * 1.001, "m2");
+        before = trace;
+    }
+}
+END_TEST
+
+/* ---- recordings ---- */
+
+static rtt_scene_t scene;
+
+/* Solves an epoch; a fix whose ranges all fail the gates stays what it was. */
+static bool solve_epoch(const rtt_epoch_t *e, bool recalls, double dt_s, insole_anchor_fix_t *fix)
+{
+    if (recalls) {
+        ck_assert_int_eq(insole_range_fix_age(&config, fix, (insole_real_t)dt_s), INSOLE_OK);
+    }
+    insole_status_t status = insole_range_fix_solve(&config, scene.aps, RTT_APS, e->ranges,
+                                                    e->range_count, recalls ? fix : NULL, fix);
+    ck_assert(status == INSOLE_OK || status == INSOLE_ERR_STATE);
+    return recalls || status == INSOLE_OK;
+}
+
+/* Mean error over the epochs of at least `least` ranges. */
+static double mean_error(bool with_memory, uint32_t least)
+{
+    insole_anchor_fix_t fix;
+    double sum = 0.0;
+    uint32_t n = 0;
+    bool has_fix = false;
+    for (uint32_t i = 0; i < scene.count; i++) {
+        const rtt_epoch_t *e = &scene.epochs[i];
+        bool recalls = with_memory && has_fix && !e->begins;
+        has_fix = solve_epoch(e, recalls, recalls ? e->t_s - e[-1].t_s : 0.0, &fix);
+        if (has_fix && e->range_count >= least) {
+            sum += miss(&fix, e->x_m, e->y_m);
+            n++;
+        }
+    }
+    ck_assert_uint_gt(n, 9000u);
+    return sum / n;
+}
+
+/* One set of settings in two buildings, whatever each of them does to radio. */
+START_TEST(recorded_round_trip_times)
+{
+    static const double limits_m[2][2] = {{1.0, 0.85}, {0.9, 0.75}};
+    set_defaults();
+    if (rtt_load(&scene, _i)) {
+        ASSERT_AT_MOST(mean_error(false, 3), limits_m[_i][0], "m");
+        ASSERT_AT_MOST(mean_error(true, 1), limits_m[_i][1], "m");
+        config.bias_m = 0; /* nothing known of the radio's delay: found on the way */
+        config.bias_sigma_m = 3;
+        ASSERT_AT_MOST(mean_error(true, 1), 1.35, "m");
+    }
+}
+END_TEST
+
+/* ---- bad input ---- */
+
 START_TEST(settings_out_of_range)
 {
     ck_assert_int_eq(insole_range_fix_check(NULL), INSOLE_ERR_NULL);
@@ -463,6 +580,10 @@ Suite *insole_suite(void)
     suite_add(suite, "memory for a day", memory_neither_stalls_nor_drowns);
     suite_add(suite, "ageing", ageing);
     suite_add(suite, "whatever comes in", whatever_comes_in);
+    suite_add(suite, "order does not matter", order_does_not_matter);
+    suite_add(suite, "in parts or at once", in_parts_or_at_once);
+    suite_add(suite, "more ranges make surer", more_ranges_make_surer);
+    suite_add_loop(suite, "recorded round-trip times", recorded_round_trip_times, 2);
     suite_add(suite, "settings out of range", settings_out_of_range);
     suite_add(suite, "null pointers", null_pointers);
     suite_add(suite, "values without sense", values_without_sense);

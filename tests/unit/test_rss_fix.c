@@ -2,6 +2,7 @@
 #include "insole/place/rss_fix.h"
 
 #include "anchors.h"
+#include "rtt.h"
 #include "suite.h"
 
 static insole_rss_fix_config_t config;
@@ -253,6 +254,86 @@ START_TEST(whatever_comes_in)
 }
 END_TEST
 
+/* A receiver that reads all too strong finds itself in the same place, and finds out. */
+START_TEST(gain_is_told_apart)
+{
+    insole_rng_seed(&rng, 170u);
+    set_defaults();
+    config.gain_sigma_db = 50;
+    config.iterations = 50;
+    for (int i = 0; i < 100; i++) {
+        insole_anchor_fix_t fix, louder;
+        place_random(6);
+        listen(uniform(3.0, 17.0), uniform(2.0, 13.0), 0.0, 3.0);
+        ck_assert_int_eq(solve_rss(&fix), INSOLE_OK);
+        for (uint32_t k = 0; k < count; k++) {
+            readings[k].rss_dbm += 2;
+        }
+        ck_assert_int_eq(solve_rss(&louder), INSOLE_OK);
+        ASSERT_AT_MOST(miss(&louder, (double)fix.x_m, (double)fix.y_m), 0.25, "m");
+        ASSERT_NEAR(louder.common - fix.common, 2.0, 0.25, "dB");
+    }
+}
+END_TEST
+
+/* The stronger an access point is heard, the nearer to it the fix. */
+START_TEST(stronger_is_nearer)
+{
+    insole_rng_seed(&rng, 180u);
+    set_defaults();
+    place_random(5);
+    listen(10.0, 7.5, 0.0, 0.0);
+    double before = HUGE_VAL, centre_before = HUGE_VAL;
+    for (int i = 0; i < 8; i++) {
+        insole_anchor_fix_t fix, centre;
+        ck_assert_int_eq(solve_rss(&fix), INSOLE_OK);
+        ck_assert_int_eq(solve_centroid(&centre), INSOLE_OK);
+        double to_ap = distance(2, (double)fix.x_m, (double)fix.y_m);
+        double centre_to_ap = distance(2, (double)centre.x_m, (double)centre.y_m);
+        ASSERT_AT_MOST(to_ap, before - 0.01, "m");
+        ASSERT_AT_MOST(centre_to_ap, centre_before - 0.01, "m");
+        before = to_ap;
+        centre_before = centre_to_ap;
+        readings[2].rss_dbm += 2;
+    }
+}
+END_TEST
+
+/* ---- recordings ---- */
+
+static rtt_scene_t scene;
+
+/* Signal strengths alone, in two buildings whose walls and access points nobody has calibrated. */
+START_TEST(recorded_signal_strengths)
+{
+    static const double limits_m[2] = {3.0, 3.7};
+    double by_model = 0.0, by_centroid = 0.0;
+    uint32_t n = 0;
+    set_defaults();
+    if (!rtt_load(&scene, _i)) {
+        return;
+    }
+    for (uint32_t i = 0; i < scene.count; i++) {
+        const rtt_epoch_t *e = &scene.epochs[i];
+        insole_anchor_fix_t model, centroid;
+        if (e->rss_count >= 3u &&
+            insole_rss_fix_solve(&config, &propagation, scene.aps, RTT_APS, e->readings,
+                                 e->rss_count, &model) == INSOLE_OK &&
+            insole_rss_fix_centroid(&config, &propagation, scene.aps, RTT_APS, e->readings,
+                                    e->rss_count, &centroid) == INSOLE_OK) {
+            by_model += miss(&model, e->x_m, e->y_m);
+            by_centroid += miss(&centroid, e->x_m, e->y_m);
+            n++;
+        }
+    }
+    ck_assert_uint_gt(n, 9000u);
+    ASSERT_AT_MOST(by_model / n, limits_m[_i], "m");
+    ASSERT_AT_MOST(by_model, 0.98 * by_centroid, "m");
+}
+END_TEST
+
+/* ---- bad input ---- */
+
 START_TEST(settings_out_of_range)
 {
     ck_assert_int_eq(insole_rss_fix_check(NULL), INSOLE_ERR_NULL);
@@ -332,6 +413,9 @@ Suite *insole_suite(void)
     suite_add(suite, "gates", gates_leave_out);
     suite_add_loop(suite, "turned and shifted", turned_and_shifted_alike, 3);
     suite_add(suite, "whatever comes in", whatever_comes_in);
+    suite_add(suite, "gain is told apart", gain_is_told_apart);
+    suite_add(suite, "stronger is nearer", stronger_is_nearer);
+    suite_add_loop(suite, "recorded signal strengths", recorded_signal_strengths, 2);
     suite_add(suite, "settings out of range", settings_out_of_range);
     suite_add(suite, "null pointers", null_pointers);
     suite_add(suite, "values without sense", values_without_sense);

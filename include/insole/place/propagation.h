@@ -33,7 +33,8 @@ enum { INSOLE_TAIL_GAUSS = 0, INSOLE_TAIL_STUDENT = 1 };
 #define INSOLE_PROPAGATION_KEYS(KEY)                                                              \
     KEY(REAL, p0_dbm, -38.0, -120.0, 40.0, "dBm",                                                 \
         "RSS at 1 m in free sight, for access points that do not tell theirs")                    \
-    KEY(REAL, exponent, 2.0, 0.5, 10.0, "", "n0 of (10), for access points that do not tell theirs") \
+    KEY(REAL, exponent, 2.0, 0.5, 10.0, "",                                                       \
+        "n0 of (10), for access points that do not tell theirs")                                  \
     KEY(REAL, near_m, 1.5, 0.1, 50.0, "m",                                                        \
         "an access point heard as from nearer counts as near, (37); for those that do not tell")  \
     KEY(REAL, wall_db, 5.0, 0.0, 100.0, "dB",                                                     \
