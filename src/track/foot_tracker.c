@@ -160,12 +160,12 @@ static void level_floor(insole_foot_tracker_t *t)
     }
 }
 
-static void navigate(insole_foot_tracker_t *t, const insole_labelled_t *s)
+/* The sample loses its gyro bias. */
+static void navigate(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
-    insole_imu_t imu = s->imu;
-    imu.gyro_radps = insole_vec3_sub(imu.gyro_radps, t->still_bias.gyro_bias_radps);
+    s->imu.gyro_radps = insole_vec3_sub(s->imu.gyro_radps, t->still_bias.gyro_bias_radps);
     t->zupt_ekf.gravity_mps2 = t->still_bias.gravity_mps2;
-    (void)insole_zupt_ekf_predict(&t->zupt_ekf, &imu, s->tag & INSOLE_MARK_CLIP);
+    (void)insole_zupt_ekf_predict(&t->zupt_ekf, &s->imu, s->tag & INSOLE_MARK_CLIP);
     if (s->still) {
         if (insole_zupt_ekf_correct(&t->zupt_ekf, 0) == INSOLE_OK) {
             t->counts.corrections++;
@@ -243,15 +243,14 @@ static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
 /* ---- gaps ------------------------------------------------------------------------------- */
 
 /* A short gap: the rates in it lie between those at its ends, more or less. */
-static void bridge(insole_foot_tracker_t *t, const insole_labelled_t *s)
+static void bridge(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
     insole_zupt_ekf_t *ekf = &t->zupt_ekf;
-    insole_labelled_t middle = *s;
     insole_vec3_t accel = insole_vec3_add(ekf->last_accel_mps2, ekf->accel_bias_mps2);
     insole_vec3_t gyro = insole_vec3_add(ekf->last_gyro_radps, t->still_bias.gyro_bias_radps);
-    middle.imu.accel_mps2 = insole_vec3_middle(accel, s->imu.accel_mps2);
-    middle.imu.gyro_radps = insole_vec3_middle(gyro, s->imu.gyro_radps);
-    navigate(t, &middle);
+    s->imu.accel_mps2 = insole_vec3_middle(accel, s->imu.accel_mps2);
+    s->imu.gyro_radps = insole_vec3_middle(gyro, s->imu.gyro_radps);
+    navigate(t, s);
     insole_real_t var_v = insole_square(BRIDGE_ACCEL_MPS2 * ekf->dt_s);
     insole_real_t var_a = insole_square(BRIDGE_GYRO_RADPS * ekf->dt_s);
     ekf->P.vv = insole_sym3_add_diagonal(ekf->P.vv, var_v);
@@ -295,7 +294,7 @@ static void end_coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
 }
 
 /* True when the sample has been used up. */
-static bool cross_gap(insole_foot_tracker_t *t, const insole_labelled_t *s)
+static bool cross_gap(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
     insole_real_t gap_s = seconds(t->zupt_ekf.t_us, s->imu.t_us);
     t->gap_turn_rad2 += insole_square(t->config.sigma_gap_turn_rad_rts) * gap_s;
@@ -311,17 +310,18 @@ static bool cross_gap(insole_foot_tracker_t *t, const insole_labelled_t *s)
 }
 
 /* The foot stands for the first time after a gap: what lies before is left behind. */
-static void renew_anchor(insole_foot_tracker_t *t, uint64_t t_us)
+static void leave_gap(insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t *fix)
 {
-    insole_fix_t fix;
-    make_fix(t, t_us, &fix);
-    (void)insole_foot_anchor_renew(&t->anchor, &fix, position_n(t), t->gap_turn_rad2);
-    forget_place(t);
-    t->gap_turn_rad2 = ZERO;
+    if (t->gap_turn_rad2 > ZERO && t->was_still && !t->coasting) {
+        make_fix(t, t_us, fix);
+        (void)insole_foot_anchor_renew(&t->anchor, fix, position_n(t), t->gap_turn_rad2);
+        forget_place(t);
+        t->gap_turn_rad2 = ZERO;
+    }
 }
 
 /* One sample of the aligned filter; true when a stride ends. */
-static bool move(insole_foot_tracker_t *t, const insole_labelled_t *s)
+static bool move(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
     bool bridged = (s->tag & INSOLE_MARK_GAP) != 0u && cross_gap(t, s);
     if (t->coasting) {
@@ -330,16 +330,13 @@ static bool move(insole_foot_tracker_t *t, const insole_labelled_t *s)
     } else if (!bridged) {
         navigate(t, s);
     }
-    if (t->gap_turn_rad2 > ZERO && s->still && !t->coasting) {
-        renew_anchor(t, s->imu.t_us);
-    }
     return !t->coasting && count_stride(t, s);
 }
 
 /* ---- fixes out -------------------------------------------------------------------------- */
 
 /* True when a stride ends. */
-static bool advance(insole_foot_tracker_t *t, const insole_labelled_t *s)
+static bool advance(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
     bool stride_ended = false;
     if (t->zupt_ekf.aligned) {
@@ -368,6 +365,7 @@ insole_status_t insole_foot_tracker_next(insole_foot_tracker_t *tracker, insole_
         (void)insole_foot_anchor_init(&t->anchor, t->config.yaw_drift_radps, s.imu.t_us);
     }
     bool stride_ended = advance(t, &s);
+    leave_gap(t, s.imu.t_us, fix);
     reach_start(t, s.imu.t_us);
     (void)insole_foot_anchor_follow(&t->anchor, position_n(t), stride_ended);
     make_fix(t, s.imu.t_us, fix);

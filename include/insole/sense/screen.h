@@ -66,7 +66,7 @@ typedef struct {
 /** Bits of insole_clean_t.marks. */
 enum {
     INSOLE_MARK_CLIP = 7, /**< gyro at the end of its range: a bit per axis, x the lowest */
-    INSOLE_MARK_GAP = 8 /**< nothing is known of the time since the sample before */
+    INSOLE_MARK_GAP = 8   /**< nothing is known of the time since the sample before */
 };
 
 /** A sample that may be used. */

@@ -72,11 +72,11 @@ typedef struct {
     insole_vec3_t variance_radps2; /**< of the bias, per axis */
     insole_real_t gravity_mps2;
     uint64_t first_us, last_us;
-    insole_still_block_t block;                     /**< being filled */
-    insole_still_moments_t before;                  /**< of the block before */
-    bool has_before;                                /**< there was no gap since */
-    uint32_t rests;                                 /**< times the bias was learned */
-    uint32_t gravity_rests;                         /**< of these, used for gravity */
+    insole_still_block_t block;    /**< being filled */
+    insole_still_moments_t before; /**< of the block before */
+    bool has_before;               /**< there was no gap since */
+    uint32_t rests;                /**< times the bias was learned */
+    uint32_t gravity_rests;        /**< of these, used for gravity */
     bool has_first;
     uint32_t refused;
 } insole_still_bias_t;
