@@ -23,6 +23,7 @@
 #include "insole/base/types.h"
 #include "insole/base/vec3.h"
 #include "insole/move/stride.h"
+#include "insole/move/zupt_cov.h"
 #include "insole/move/zupt_ekf.h"
 #include "insole/place/floor_plan.h"
 #include "insole/place/floor_plan_build.h"

@@ -209,6 +209,18 @@ START_TEST(symmetric_sums)
 }
 END_TEST
 
+START_TEST(sums_with_outer_products)
+{
+    sample_t x = first_sample();
+    for (int i = 0; i < TRIES; i++) {
+        draw(&x);
+        plain_t outer = plain_product(plain_column(x.v), plain_transpose(plain_column(x.A.r1)));
+        assert_same(plain(insole_mat3_add_outer(x.B, x.s, x.v, x.A.r1)),
+                    plain_sum(plain(x.B), (double)x.s, outer), "A + s v w'");
+    }
+}
+END_TEST
+
 START_TEST(symmetric_and_full_forms)
 {
     sample_t x = first_sample();
@@ -306,6 +318,7 @@ Suite *insole_suite(void)
     suite_add(suite, "blocks", products_of_blocks);
     suite_add(suite, "skew", products_with_skew_matrices);
     suite_add(suite, "symmetric sums", symmetric_sums);
+    suite_add(suite, "sums with outer products", sums_with_outer_products);
     suite_add(suite, "symmetric forms", symmetric_and_full_forms);
     suite_add(suite, "inverse", inverse_of_a_definite_block);
     suite_add_loop(suite, "inverse at any scale", inverse_at_any_scale, 8);

@@ -65,6 +65,15 @@ static inline insole_mat3_t insole_mat3_scale(insole_mat3_t a, insole_real_t s)
                             insole_vec3_scale(a.r2, s));
 }
 
+/** A + s v w' */
+static inline insole_mat3_t insole_mat3_add_outer(insole_mat3_t a, insole_real_t s, insole_vec3_t v,
+                                                  insole_vec3_t w)
+{
+    return insole_mat3_rows(insole_vec3_add_scaled(a.r0, s * v.x, w),
+                            insole_vec3_add_scaled(a.r1, s * v.y, w),
+                            insole_vec3_add_scaled(a.r2, s * v.z, w));
+}
+
 /** A v */
 static inline insole_vec3_t insole_mat3_mul_vec(insole_mat3_t a, insole_vec3_t v)
 {

@@ -13,8 +13,7 @@
  *          insole_zupt_ekf_predict(&foot, &imu);
  *          if (still) insole_zupt_ekf_correct(&foot, &nis);
  *
- *  The covariance is kept in
- *  its 3x3 blocks; Phi = I + three blocks (five with the bias), H = [0 I 0 0].
+ *  The covariance is kept in its 3x3 blocks (zupt_cov.h).
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -23,6 +22,7 @@
 
 #include "insole/base/config.h"
 #include "insole/base/types.h"
+#include "insole/move/zupt_cov.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -60,13 +60,6 @@ typedef struct {
 
 extern const insole_zupt_ekf_config_t insole_zupt_ekf_defaults;
 
-/** Covariance of dx in blocks: p position, v velocity, a attitude, b accelerometer bias. */
-typedef struct {
-    insole_sym3_t pp, vv, aa, bb;
-    insole_mat3_t pv, pa, va;
-    insole_mat3_t pb, vb, ab; /**< zero, and not computed, with nine states */
-} insole_zupt_cov_t;
-
 /** Process noise waiting to be added: singly it would be lost to rounding within hours. */
 typedef struct {
     insole_real_t velocity_m2ps2; /**< on each axis of v */
@@ -75,9 +68,26 @@ typedef struct {
     uint32_t samples;
 } insole_zupt_noise_t;
 
+/** How the state came to where it is. */
+typedef enum {
+    INSOLE_ZUPT_STEP_ALIGN = 0,   /**< found anew */
+    INSOLE_ZUPT_STEP_PREDICT = 1, /**< from the state before, by a sample */
+    INSOLE_ZUPT_STEP_COAST = 2    /**< carried on without samples */
+} insole_zupt_step_t;
+
+/** What the last sample did: all that a smoother needs to know besides the state. */
+typedef struct {
+    insole_zupt_step_t step;
+    insole_quat_t q;                  /**< attitude between prediction and correction */
+    insole_vec3_t velocity_mps;       /**< of the rolling foot, as it was measured, n */
+    insole_real_t velocity_var_m2ps2; /**< its variance on each axis; 0: no such correction */
+    insole_real_t height_m;           /**< as it was told */
+    insole_real_t height_var_m2;      /**< its variance; 0: no such correction */
+} insole_zupt_trace_t;
+
 typedef struct {
     insole_zupt_ekf_config_t config;
-    bool aligned, coasting;
+    bool aligned;
     uint64_t t_us;      /**< of the last sample */
     insole_real_t dt_s; /**< of the last interval */
     insole_real_t gravity_mps2;
@@ -89,6 +99,7 @@ typedef struct {
     insole_vec3_t last_accel_mps2, last_gyro_radps; /**< b, of the last sample, bias removed */
     insole_zupt_cov_t P;
     insole_zupt_noise_t noise;
+    insole_zupt_trace_t trace;
     uint32_t refused; /**< calls answered with a negative status */
 } insole_zupt_ekf_t;
 
@@ -98,9 +109,10 @@ insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf,
                                      const insole_zupt_ekf_config_t *config);
 
 /** Roll and pitch from the specific force of a standing foot, [TwoOrder] table 1; yaw becomes
- *  `yaw_rad`, velocity zero, position stays. Covariance: position as before alignment (zero at
- *  the first), velocity and yaw known, tilt `sigma_tilt_rad`.
+ *  `yaw_rad`, velocity zero, position stays. Covariance: position and yaw as before alignment (zero
+ *  at the first), velocity known, tilt `sigma_tilt_rad`.
  *  @param mean_accel_mps2 b; its length must lie between a half and twice gravity
+ *  @param sigma_tilt_rad  0..pi
  *  @return INSOLE_ERR_VALUE */
 insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf, insole_vec3_t mean_accel_mps2,
                                       insole_real_t sigma_tilt_rad, insole_real_t yaw_rad,
@@ -109,24 +121,28 @@ insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf, insole_vec3_t mean
 /** Mechanisation (12)-(17) and covariance (19)-(24) up to `imu->t_us`.
  *  @param imu  gyro bias already removed
  *  @param clipped bit m set: the gyro of body axis m is at the end of its range
- *  @return INSOLE_ERR_STATE before alignment, INSOLE_ERR_TIME, INSOLE_ERR_VALUE (not finite, or
- *          a step of more than one second: use insole_zupt_ekf_coast) */
+ *  @return INSOLE_ERR_STATE before alignment, INSOLE_ERR_TIME, INSOLE_ERR_VALUE (a component beyond
+ *          1e4 m/s^2 or 1e3 rad/s, or a step of more than one second: use insole_zupt_ekf_coast) */
 insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu_t *imu,
                                         uint32_t clipped);
 
-/** Zero-velocity correction (22)-(31): the foot rolls over the ground below the sensor.
+/** Zero-velocity correction (22)-(31): the foot rolls over the ground below the sensor. At most one
+ *  per sample.
  *  @param[out] nis  normalised innovation squared, chi2(3) when consistent; NULL to skip
  *  @return INSOLE_ERR_STATE before alignment or when the innovation's covariance is not positive */
 insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *nis);
 
-/** Correction by a known height: z = `height_m` with 1-sigma `sigma_m` (> 0). */
+/** Correction by a known height: z = `height_m` with 1-sigma `sigma_m`. At most one per sample.
+ *  @return INSOLE_ERR_STATE before alignment, INSOLE_ERR_VALUE for a height beyond 1e6 m or a sigma
+ *          outside 1e-4..1e4 m */
 insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ekf, insole_real_t height_m,
                                                insole_real_t sigma_m);
 
 /** Carries on without samples up to `t_us`: moves with `velocity_mps`, which is known to
  *  `sigma_mps` per axis; the position's covariance grows, attitude stays as it was. Calls in a row
  *  are one coast: the velocity is wrong by the same error all the time, the first call's sigma.
- *  @return INSOLE_ERR_STATE before alignment, INSOLE_ERR_TIME, INSOLE_ERR_VALUE */
+ *  @return INSOLE_ERR_STATE before alignment, INSOLE_ERR_TIME, INSOLE_ERR_VALUE for a component or
+ *          sigma beyond 1e3 m/s, or a negative sigma */
 insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf, insole_vec3_t velocity_mps,
                                       insole_real_t sigma_mps, uint64_t t_us);
 
