@@ -90,7 +90,7 @@ static void spoil(int what)
 
 static const char *const words[] = {
     "is the sensor on the shoe",   "does not begin at rest",        "did anybody walk?",
-    "50 readings per second",      "3 gaps",                        "end of its range in 12 readings",
+    "50 readings per second",      "3 gaps",                        "cut off in 12 readings",
     "is its unit right",           "the accelerometer reads 9.880", "no start is known",
     "the start tells no heading"};
 
