@@ -33,6 +33,8 @@ extern "C" {
         "largest standard deviation of an accelerometer axis at rest")                            \
     KEY(REAL, agree_radps, 0.015, 0.0, 1.0, "rad/s",                                              \
         "largest difference of the gyro means of two blocks in a row")                            \
+    KEY(REAL, agree_mps2, 0.08, 0.0, 10.0, "m/s^2",                                               \
+        "and of their accelerometer means: a foot that rolls turns gravity, a bias does not")     \
     KEY(REAL, sigma_bias_radps, 0.015, 1.0e-6, 1.0, "rad/s",                                      \
         "1-sigma of the bias when switched on")                                                   \
     KEY(REAL, bias_walk_radps_rts, 2.0e-4, 0.0, 0.1, "rad/s/sqrt(s)", "random walk of the bias")  \
