@@ -80,9 +80,9 @@ static bool was_cut_off(insole_clip_peak_t *peak, insole_real_t size, insole_rea
 }
 
 /* The range is the largest top that was cut off and that no rate has gone far beyond. */
-static void learn_range(insole_gyro_clip_t *clip, insole_real_t size, insole_real_t cut_off_at)
+static void learn_range(insole_gyro_clip_t *clip, insole_real_t lasting, insole_real_t cut_off_at)
 {
-    clip->largest_radps = insole_max(clip->largest_radps, size);
+    clip->largest_radps = insole_max(clip->largest_radps, lasting);
     clip->range_radps = insole_max(clip->range_radps, cut_off_at);
     if (DISPROOF * clip->range_radps < clip->largest_radps) {
         clip->range_radps = ZERO;
@@ -94,9 +94,10 @@ static bool is_clipped(insole_gyro_clip_t *clip, uint32_t axis, insole_real_t ra
 {
     insole_clip_peak_t *peak = &clip->peak[axis];
     insole_real_t size = insole_abs(rate), top = peak->top_radps;
+    insole_real_t lasting = insole_min(size, peak->last_radps); /* one sample alone is a spike */
     bool cut_off = was_cut_off(peak, size, dt_us);
     if (!(clip->told_radps > ZERO)) {
-        learn_range(clip, size, cut_off ? top : ZERO);
+        learn_range(clip, lasting, cut_off ? top : ZERO);
     }
     return clip->range_radps > ZERO && size >= clip->share * clip->range_radps;
 }

@@ -34,7 +34,7 @@ typedef struct {
     insole_real_t told_radps;    /**< 0 = to be recognised */
     insole_real_t share;         /**< of the range, from which an axis counts as clipped */
     insole_real_t range_radps;   /**< told, or the largest top that was cut off; 0 = none yet */
-    insole_real_t largest_radps; /**< rate of any axis so far */
+    insole_real_t largest_radps; /**< rate that any axis had for two samples */
     insole_clip_peak_t peak[3];
 } insole_gyro_clip_t;
 
