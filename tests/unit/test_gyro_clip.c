@@ -1,184 +1,220 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/sense/gyro_clip.h"
 
-#include <string.h>
-
 #include "near.h"
-#include "sample.h"
+#include "refusal.h"
 #include "suite.h"
 
-static const double PI = 3.14159265358979323846;
-static const int RATES_HZ[] = {100, 200, 250, 400};
-enum { RATES = 4 };
+#define PI 3.14159265358979323846
 
-/* A swing: half a sine of 0.25 s every second, cut off at `limit`, on one axis. */
-static double swing(double t_s, double peak, double limit)
+static const double RATES_HZ[] = {60.0, 75.0, 100.0, 128.0, 200.0, 250.0, 400.0};
+enum { RATES = sizeof RATES_HZ / sizeof RATES_HZ[0] };
+
+static insole_gyro_clip_t fresh(double range, double share)
 {
-    double phase = fmod(t_s, 1.0) / 0.25;
-    return phase < 1.0 ? fmin(peak * sin(PI * phase), limit) : 0.0;
+    insole_gyro_clip_t clip;
+    ck_assert_int_eq(insole_gyro_clip_init(&clip, (insole_real_t)range, (insole_real_t)share),
+                     INSOLE_OK);
+    return clip;
 }
 
-static insole_vec3_t on_axis(int axis, double rate)
+static uint8_t push(insole_gyro_clip_t *clip, double x, double y, double z, double dt_s)
 {
-    insole_real_t w = (insole_real_t)rate, o = INSOLE_R(0.0);
-    return axis == 0   ? insole_vec3(w, o, o)
-           : axis == 1 ? insole_vec3(o, w, o)
-                       : insole_vec3(o, o, w);
+    uint8_t axes = 0xffu;
+    insole_vec3_t gyro = insole_vec3((insole_real_t)x, (insole_real_t)y, (insole_real_t)z);
+    ck_assert_int_eq(insole_gyro_clip_push(clip, gyro, (insole_real_t)(dt_s * 1.0e6), &axes),
+                     INSOLE_OK);
+    return axes;
 }
 
-typedef struct {
-    int rate_hz, axis;
-    double peak, limit, seconds;
-} gait_t;
-
-/* Walks; counts samples marked on the gait's axis, and those marked on another. */
-static void walk(insole_gyro_clip_t *clip, const gait_t *gait, int *marked, int *astray)
+static uint8_t push_y(insole_gyro_clip_t *clip, double y, double dt_s)
 {
-    double dt = 1.0 / gait->rate_hz;
-    for (int i = 0; i < (int)(gait->seconds / dt); i++) {
-        uint8_t axes = 0u;
-        double sign = (int)(i * dt) % 2 == 0 ? 1.0 : -1.0;
-        double rate = sign * swing(i * dt, gait->peak, gait->limit);
-        ck_assert_int_eq(insole_gyro_clip_push(clip, on_axis(gait->axis, rate),
-                                               (insole_real_t)(i == 0 ? 0.0 : 1e6 * dt), &axes),
-                         INSOLE_OK);
-        *marked += (axes >> gait->axis & 1) != 0;
-        *astray += (axes & ~(1u << gait->axis)) != 0u;
+    return push(clip, 0.0, y, 0.0, dt_s);
+}
+
+/* One half wave of a sine about y with a pause on both sides; its value is cut off at `range`. */
+static uint32_t half_wave(insole_gyro_clip_t *clip, double top, double width_s, double range,
+                          double rate_hz, double phase)
+{
+    uint32_t marked = 0u;
+    for (double t = (phase - 3.0) / rate_hz; t < width_s + 3.0 / rate_hz; t += 1.0 / rate_hz) {
+        double y = t > 0.0 && t < width_s ? top * sin(PI * t / width_s) : 0.0;
+        marked += push_y(clip, fmax(fmin(y, range), -range), 1.0 / rate_hz) != 0u ? 1u : 0u;
+    }
+    return marked;
+}
+
+START_TEST(round_peaks_are_not_taken_for_clipped)
+{
+    worst_t range = {0.0, 0.0};
+    for (double width_s = 0.15; width_s < 0.7; width_s += 0.013) {
+        for (double top = 7.5; top < 35.0; top *= 1.3) {
+            insole_gyro_clip_t clip = fresh(0.0, 0.88);
+            for (double phase = 0.0; phase < 1.0; phase += 0.2) {
+                half_wave(&clip, top, width_s, 1.0e3, RATES_HZ[_i], phase);
+            }
+            worst_note(&range, (double)clip.range_radps, width_s);
+        }
+    }
+    ASSERT_WORST(range, 0.0, "rad/s");
+}
+END_TEST
+
+/* Three peaks as a foot makes them, up to three times as high as the sensor can tell. */
+START_TEST(flat_tops_tell_the_range)
+{
+    worst_t off = {0.0, 0.0};
+    for (double excess = 1.3; excess < 3.0; excess *= 1.2) {
+        for (double width_s = 0.2; width_s < 0.55; width_s += 0.05) {
+            insole_gyro_clip_t clip = fresh(0.0, 0.88);
+            for (double phase = 0.0; phase < 0.9; phase += 0.3) {
+                half_wave(&clip, excess * 8.7, width_s, 8.7, RATES_HZ[_i], phase);
+            }
+            worst_note(&off, fabs((double)clip.range_radps - 8.7), excess);
+        }
+    }
+    ASSERT_WORST(off, 0.03 * 8.7, "rad/s");
+}
+END_TEST
+
+/* Once the range is known, what is marked is what was cut off and the bend before it. */
+START_TEST(marks_lie_where_the_signal_is_cut_off)
+{
+    insole_gyro_clip_t clip = fresh(0.0, 0.88);
+    ck_assert_uint_eq(half_wave(&clip, 16.0, 0.3, 8.0, 200.0, 0.5), 0u);
+    double from_s = 0.3 / PI * asin(0.88 * 8.0 / 16.0);
+    uint32_t expected = (uint32_t)lround((0.3 - 2.0 * from_s) * 200.0);
+    uint32_t marked = half_wave(&clip, 16.0, 0.3, 8.0, 200.0, 0.5);
+    ASSERT_NEAR(marked, expected, 1, "samples");
+}
+END_TEST
+
+START_TEST(each_axis_and_each_sign)
+{
+    const double sign = (_i & 1) != 0 ? -1.0 : 1.0;
+    const int axis = _i / 2;
+    insole_gyro_clip_t clip = fresh(0.0, 0.88);
+    for (int wave = 0; wave < 2; wave++) {
+        for (int i = 0; i < 40; i++) {
+            double v = sign * fmin(20.0 * sin(PI * (i + 0.5) / 40.0), 9.0);
+            uint8_t axes =
+                push(&clip, axis == 0 ? v : 0.1, axis == 1 ? v : 0.1, axis == 2 ? v : 0.1, 0.005);
+            bool high = wave > 0 && fabs(v) >= 0.88 * 9.0;
+            ck_assert_uint_eq(axes, high ? 1u << axis : 0u);
+        }
+    }
+    ASSERT_NEAR(clip.range_radps, 9.0, 0.27, "rad/s");
+}
+END_TEST
+
+START_TEST(a_told_range_holds_whatever_comes)
+{
+    insole_gyro_clip_t clip = fresh(16.0, 0.75);
+    half_wave(&clip, 20.0, 0.3, 9.0, 200.0, 0.0);
+    half_wave(&clip, 40.0, 0.3, 30.0, 200.0, 0.0);
+    ASSERT_NEAR(clip.range_radps, 16.0, 0.0, "rad/s");
+    ck_assert_uint_eq(push(&clip, 11.999, -12.0, 12.0, 0.005), 6u);
+}
+END_TEST
+
+START_TEST(the_largest_top_counts_until_a_rate_lasts_far_beyond_it)
+{
+    insole_gyro_clip_t clip = fresh(0.0, 0.88);
+    half_wave(&clip, 16.0, 0.3, 8.0, 200.0, 0.0);
+    half_wave(&clip, 18.0, 0.3, 9.0, 200.0, 0.0);
+    half_wave(&clip, 15.0, 0.3, 7.5, 200.0, 0.0);
+    ASSERT_NEAR(clip.range_radps, 9.0, 0.27, "rad/s");
+    push_y(&clip, 60.0, 0.005); /* a spike of one sample says nothing */
+    push_y(&clip, 0.0, 0.005);
+    ASSERT_NEAR(clip.range_radps, 9.0, 0.27, "rad/s");
+    half_wave(&clip, 25.0, 0.3, 1.0e3, 200.0, 0.0);
+    ASSERT_NEAR(clip.range_radps, 0.0, 0.0, "rad/s");
+    half_wave(&clip, 16.0, 0.3, 8.0, 200.0, 0.0);
+    ASSERT_NEAR(clip.range_radps, 0.0, 0.0, "rad/s");
+    half_wave(&clip, 70.0, 0.3, 34.9, 200.0, 0.0);
+    ASSERT_NEAR(clip.range_radps, 34.9, 1.05, "rad/s");
+}
+END_TEST
+
+/* Twice 15 ms at the top are 30 ms only when nothing lies between. */
+START_TEST(time_that_is_not_known_ends_a_peak)
+{
+    for (int gap = 0; gap < 2; gap++) {
+        insole_gyro_clip_t clip = fresh(0.0, 0.88);
+        push_y(&clip, 2.0, 0.005);
+        for (int i = 0; i < 6; i++) {
+            push_y(&clip, 9.0, gap == 1 && i == 3 ? 0.0 : 0.005);
+        }
+        push_y(&clip, 2.0, 0.005);
+        ASSERT_NEAR(clip.range_radps, gap == 1 ? 0.0 : 9.0, 0.0, "rad/s");
     }
 }
-
-/* The top is taken where a peak comes within 3 % of it. */
-static void assert_range(const insole_gyro_clip_t *clip, double limit)
-{
-    ASSERT_AT_LEAST(clip->range_radps, 0.97 * limit, "rad/s");
-    ASSERT_AT_MOST(clip->range_radps, limit * (1.0 + 1e-6), "rad/s");
-}
-
-START_TEST(round_peaks_are_not_clipped)
-{
-    static const double PEAKS[] = {5.0, 7.5, 9.0, 12.0, 25.0};
-    gait_t gait = {RATES_HZ[_i % RATES], _i % 3, PEAKS[_i / RATES], 1000.0, 20.0};
-    insole_gyro_clip_t clip;
-    int marked = 0, astray = 0;
-    insole_gyro_clip_init(&clip, INSOLE_R(0.0), INSOLE_R(0.9));
-    walk(&clip, &gait, &marked, &astray);
-    ck_assert_int_eq(marked + astray, 0);
-    ASSERT_NEAR(clip.range_radps, 0.0, 0.0, "rad/s");
-}
 END_TEST
 
-START_TEST(cut_off_peaks_tell_the_range)
-{
-    gait_t gait = {RATES_HZ[_i % RATES], _i % 3, 14.0, 8.7, 20.0};
-    insole_gyro_clip_t clip;
-    int marked = 0, astray = 0;
-    insole_gyro_clip_init(&clip, INSOLE_R(0.0), INSOLE_R(0.9));
-    walk(&clip, &gait, &marked, &astray);
-    assert_range(&clip, 8.7);
-    /* above 0.9 of 8.7 of 14 rad/s: asin(.559) to pi - asin(.559) of half a sine, but the first */
-    double share = 1.0 - 2.0 * asin(0.9 * 8.7 / 14.0) / PI;
-    ASSERT_NEAR(marked, 19.0 * 0.25 * share * gait.rate_hz, 0.06 * marked + 20.0, "samples");
-    ck_assert_int_eq(astray, 0);
-}
-END_TEST
-
-/* A flat peak that a later rate goes far beyond was none of the sensor's making. */
-START_TEST(a_faster_rate_disproves_the_range)
-{
-    gait_t flat = {200, 1, 14.0, 7.4, 5.0}, fast = {200, 1, 12.0, 1000.0, 5.0};
-    insole_gyro_clip_t clip;
-    int marked = 0, astray = 0;
-    insole_gyro_clip_init(&clip, INSOLE_R(0.0), INSOLE_R(0.9));
-    walk(&clip, &flat, &marked, &astray);
-    assert_range(&clip, 7.4);
-    walk(&clip, &fast, &marked, &astray);
-    ASSERT_NEAR(clip.range_radps, 0.0, 0.0, "rad/s");
-    marked = 0;
-    walk(&clip, &flat, &marked, &astray);
-    ck_assert_int_eq(marked, 0);
-}
-END_TEST
-
-START_TEST(of_several_tops_the_largest_counts)
-{
-    gait_t low = {200, 0, 14.0, 8.6, 5.0}, high = {200, 2, 14.0, 9.6, 5.0};
-    insole_gyro_clip_t clip;
-    int marked = 0, astray = 0;
-    insole_gyro_clip_init(&clip, INSOLE_R(0.0), INSOLE_R(0.9));
-    walk(&clip, &low, &marked, &astray);
-    walk(&clip, &high, &marked, &astray);
-    assert_range(&clip, 9.6);
-    walk(&clip, &low, &marked, &astray);
-    assert_range(&clip, 9.6);
-}
-END_TEST
-
-START_TEST(a_told_range_is_believed)
+START_TEST(bad_settings_are_refused)
 {
     insole_gyro_clip_t clip;
-    uint8_t axes = 0u;
-    insole_gyro_clip_init(&clip, INSOLE_R(10.0), INSOLE_R(0.9));
-    insole_vec3_t rate = insole_vec3(INSOLE_R(8.9), INSOLE_R(-9.1), INSOLE_R(30.0));
-    insole_gyro_clip_push(&clip, rate, INSOLE_R(5000.0), &axes);
-    ck_assert_uint_eq(axes, 2u | 4u);
-    ASSERT_NEAR(clip.range_radps, 10.0, 0.0, "rad/s");
-}
-END_TEST
-
-/* A gap in mid-peak: the flat top on its two sides is not joined into one. */
-START_TEST(a_gap_ends_what_was_watched)
-{
-    insole_gyro_clip_t clip;
-    uint8_t axes = 0u;
-    insole_gyro_clip_init(&clip, INSOLE_R(0.0), INSOLE_R(0.9));
-    for (int i = 0; i < 9; i++) {
-        insole_real_t dt_us = i % 3 == 0 ? INSOLE_R(0.0) : INSOLE_R(5000.0);
-        insole_gyro_clip_push(&clip, on_axis(1, 8.0), dt_us, &axes);
+    memset(&clip, 0x5a, sizeof clip);
+    ck_assert_int_eq(insole_gyro_clip_init(NULL, 0, 1), INSOLE_ERR_NULL);
+    static const insole_real_t BAD[][2] = {{-1, 1},  {101, 1}, {NAN, 1},     {INFINITY, 1},
+                                           {5, NAN}, {5, 0},   {5, INFINITY}};
+    for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++) {
+        ASSERT_UNCHANGED(clip, insole_gyro_clip_init(&clip, BAD[i][0], BAD[i][1]),
+                         INSOLE_ERR_VALUE);
     }
-    insole_gyro_clip_push(&clip, on_axis(1, 0.0), INSOLE_R(5000.0), &axes);
-    ASSERT_NEAR(clip.range_radps, 0.0, 0.0, "rad/s");
+    ck_assert_int_eq(insole_gyro_clip_init(&clip, 100, INSOLE_R(0.5)), INSOLE_OK);
+    ck_assert_int_eq(insole_gyro_clip_init(&clip, 0, 1), INSOLE_OK);
 }
 END_TEST
 
-START_TEST(refusals_change_nothing)
+START_TEST(bad_samples_are_refused)
 {
-    insole_gyro_clip_t clip, before;
-    uint8_t axes = 9u;
-    insole_real_t nan = (insole_real_t)NAN;
-    ck_assert_int_eq(insole_gyro_clip_init(NULL, INSOLE_R(0.0), INSOLE_R(0.9)), INSOLE_ERR_NULL);
-    memset(&clip, 0, sizeof clip);
-    insole_gyro_clip_init(&clip, INSOLE_R(0.0), INSOLE_R(0.9));
-    memcpy(&before, &clip, sizeof clip);
-    insole_vec3_t fine = on_axis(0, 1.0), bad = insole_vec3(INSOLE_R(0.0), nan, INSOLE_R(0.0));
-    insole_real_t dt = INSOLE_R(5000.0);
-    ck_assert_int_eq(insole_gyro_clip_push(NULL, fine, dt, &axes), INSOLE_ERR_NULL);
-    ck_assert_int_eq(insole_gyro_clip_push(&clip, fine, dt, NULL), INSOLE_ERR_NULL);
-    ck_assert_int_eq(insole_gyro_clip_push(&clip, bad, dt, &axes), INSOLE_ERR_VALUE);
-    ck_assert_int_eq(insole_gyro_clip_push(&clip, fine, nan, &axes), INSOLE_ERR_VALUE);
-    ck_assert_int_eq(insole_gyro_clip_push(&clip, fine, -dt, &axes), INSOLE_ERR_VALUE);
-    ck_assert_mem_eq(&before, &clip, sizeof clip);
-    ck_assert_uint_eq(axes, 9u);
-    static const insole_real_t BAD[][2] = {{INSOLE_R(-1.0), INSOLE_R(0.9)},
-                                           {INSOLE_R(101.0), INSOLE_R(0.9)},
-                                           {INSOLE_R(0.0), INSOLE_R(0.4)},
-                                           {INSOLE_R(0.0), INSOLE_R(1.1)}};
-    for (int i = 0; i < 4; i++) {
-        ck_assert_int_eq(insole_gyro_clip_init(&clip, BAD[i][0], BAD[i][1]), INSOLE_ERR_VALUE);
+    insole_gyro_clip_t clip = fresh(0.0, 0.88);
+    half_wave(&clip, 16.0, 0.3, 8.0, 200.0, 0.0);
+    uint8_t axes = 0x77u;
+    insole_vec3_t one = insole_vec3(1, 1, 1);
+    ck_assert_int_eq(insole_gyro_clip_push(NULL, one, 5000, &axes), INSOLE_ERR_NULL);
+    ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, one, 5000, NULL), INSOLE_ERR_NULL);
+    const insole_vec3_t bad[] = {insole_vec3(NAN, 1, 1), insole_vec3(1, INFINITY, 1),
+                                 insole_vec3(1, 1, -INFINITY)};
+    for (int i = 0; i < 3; i++) {
+        ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, bad[i], 5000, &axes), INSOLE_ERR_VALUE);
     }
-    ck_assert_int_eq(insole_gyro_clip_init(&clip, nan, INSOLE_R(0.9)), INSOLE_ERR_VALUE);
-    ck_assert_mem_eq(&before, &clip, sizeof clip);
+    ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, one, -1, &axes), INSOLE_ERR_VALUE);
+    ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, one, NAN, &axes), INSOLE_ERR_VALUE);
+    ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, one, INFINITY, &axes), INSOLE_ERR_VALUE);
+    ck_assert_uint_eq(axes, 0x77u);
+}
+END_TEST
+
+START_TEST(a_copy_goes_on_alike)
+{
+    insole_gyro_clip_t clip = fresh(0.0, 0.88);
+    half_wave(&clip, 16.0, 0.3, 8.0, 200.0, 0.0);
+    for (int i = 0; i < 30; i++) {
+        push_y(&clip, 8.0 * i / 30.0, 0.005);
+    }
+    insole_gyro_clip_t copy = clip;
+    for (int i = 0; i < 60; i++) {
+        double y = 8.0 * cos(0.1 * i);
+        ck_assert_uint_eq(push_y(&clip, y, 0.005), push_y(&copy, y, 0.005));
+    }
+    ck_assert_int_eq(memcmp(&clip, &copy, sizeof clip), 0);
 }
 END_TEST
 
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("gyro_clip");
-    suite_add_loop(suite, "round peaks", round_peaks_are_not_clipped, 5 * RATES);
-    suite_add_loop(suite, "cut-off peaks", cut_off_peaks_tell_the_range, 3 * RATES);
-    suite_add(suite, "disproof", a_faster_rate_disproves_the_range);
-    suite_add(suite, "several tops", of_several_tops_the_largest_counts);
-    suite_add(suite, "told range", a_told_range_is_believed);
-    suite_add(suite, "gaps", a_gap_ends_what_was_watched);
-    suite_add(suite, "refusals", refusals_change_nothing);
+    suite_add_loop(suite, "round peaks", round_peaks_are_not_taken_for_clipped, RATES);
+    suite_add_loop(suite, "flat tops", flat_tops_tell_the_range, RATES);
+    suite_add(suite, "marks", marks_lie_where_the_signal_is_cut_off);
+    suite_add_loop(suite, "axes", each_axis_and_each_sign, 6);
+    suite_add(suite, "told range", a_told_range_holds_whatever_comes);
+    suite_add(suite, "several tops", the_largest_top_counts_until_a_rate_lasts_far_beyond_it);
+    suite_add(suite, "gap", time_that_is_not_known_ends_a_peak);
+    suite_add(suite, "settings", bad_settings_are_refused);
+    suite_add(suite, "samples", bad_samples_are_refused);
+    suite_add(suite, "copy", a_copy_goes_on_alike);
     return suite;
 }
