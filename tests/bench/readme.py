@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The table of instruction counts in README.md, out of expected.csv.
+
+    readme.py --update README.md     puts it there
+    readme.py --check README.md      is it what expected.csv says?
+"""
+import argparse
+import csv
+import pathlib
+import sys
+
+BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
+TITLES = {
+    "insole_screen_push": "screen, a sample",
+    "insole_still_bias_push": "rest bias, a sample",
+    "insole_zero_velocity_push_next": "adaptive stance detector, a sample",
+    "insole_zupt_ekf_predict_9": "filter with 9 states, predict",
+    "insole_zupt_ekf_predict_12": "filter with 12 states, predict",
+    "insole_zupt_ekf_correct_9": "filter with 9 states, zero-velocity correction",
+    "insole_zupt_ekf_correct_12": "filter with 12 states, zero-velocity correction",
+    "insole_foot_tracker_imu_next": "the whole tracker, a sample of a walk (12 states)",
+}
+
+
+def table():
+    path = pathlib.Path(__file__).with_name("expected.csv")
+    with open(path, encoding="ascii") as file:
+        rows = {row["name"]: row for row in
+                csv.DictReader(line for line in file if not line.startswith("#"))}
+    lines = ["| call | x86-64 | Cortex-M4F, mean | largest |", "|---|---|---|---|"]
+    for name, title in TITLES.items():
+        row = rows[name]
+        lines.append(f"| {title} | {row['host']} | {row['m4']} | {row['m4_max']} |")
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--update")
+    parser.add_argument("--check")
+    given = parser.parse_args()
+    path = pathlib.Path(given.update or given.check)
+    text = path.read_text(encoding="utf-8")
+    head, rest = text.split(BEGIN, 1)
+    fresh = f"{head}{BEGIN}\n{table()}\n{END}{rest.split(END, 1)[1]}"
+    if given.update:
+        path.write_text(fresh, encoding="utf-8")
+    elif fresh != text:
+        print(f"{path}: the table of instructions is not what expected.csv says:\n{table()}")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
