@@ -76,16 +76,16 @@ static insole_real_t joint_variance(insole_vec3_t mean_a, insole_vec3_t var_a, i
     return insole_vec3_max_abs(insole_vec3_add(within, squares(half_apart)));
 }
 
-static insole_real_t largest_difference(insole_vec3_t a, insole_vec3_t b)
+static insole_real_t distance(insole_vec3_t a, insole_vec3_t b)
 {
-    return insole_vec3_max_abs(insole_vec3_sub(a, b));
+    return insole_vec3_norm(insole_vec3_sub(a, b));
 }
 
 static bool are_quiet(const insole_still_bias_config_t *c, const insole_still_moments_t *a,
                       const insole_still_moments_t *b)
 {
-    return largest_difference(a->gyro_radps, b->gyro_radps) < c->agree_radps &&
-           largest_difference(a->accel_mps2, b->accel_mps2) < c->agree_mps2 &&
+    return distance(a->gyro_radps, b->gyro_radps) < c->agree_radps &&
+           distance(a->accel_mps2, b->accel_mps2) < c->agree_mps2 &&
            joint_variance(a->gyro_radps, a->var_gyro, b->gyro_radps, b->var_gyro) <
                insole_square(c->quiet_gyro_radps) &&
            joint_variance(a->accel_mps2, a->var_accel, b->accel_mps2, b->var_accel) <
@@ -132,7 +132,7 @@ static void end_block(insole_still_bias_t *rest)
     insole_real_t walk = insole_square(c->bias_walk_radps_rts) * c->block_s;
     rest->variance_radps2 = insole_vec3_add(rest->variance_radps2, insole_vec3(walk, walk, walk));
     if (rest->has_before && are_quiet(c, &now, before)) {
-        insole_real_t apart = largest_difference(now.gyro_radps, before->gyro_radps);
+        insole_real_t apart = distance(now.gyro_radps, before->gyro_radps);
         learn_bias(rest, insole_vec3_middle(now.gyro_radps, before->gyro_radps), apart);
         learn_gravity(rest, insole_vec3_middle(now.accel_mps2, before->accel_mps2));
     }
