@@ -67,13 +67,14 @@ static insole_still_moments_t moments_of(const insole_still_block_t *b)
     return moments;
 }
 
-/* Largest variance over the axes of two blocks joined. */
+/* Variance of two blocks joined, over all axes: the same however the sensor is turned. */
 static insole_real_t joint_variance(insole_vec3_t mean_a, insole_vec3_t var_a, insole_vec3_t mean_b,
                                     insole_vec3_t var_b)
 {
     insole_vec3_t half_apart = insole_vec3_scale(insole_vec3_sub(mean_a, mean_b), INSOLE_R(0.5));
     insole_vec3_t within = insole_vec3_middle(var_a, var_b);
-    return insole_vec3_max_abs(insole_vec3_add(within, squares(half_apart)));
+    insole_vec3_t all = insole_vec3_add(within, squares(half_apart));
+    return all.x + all.y + all.z;
 }
 
 static insole_real_t distance(insole_vec3_t a, insole_vec3_t b)

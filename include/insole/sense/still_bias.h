@@ -2,7 +2,8 @@
  *
  *  A stance is not a rest: the foot rolls while it stands, and a bias learned there is wrong. The
  *  stream is cut into blocks of an eighth of a second; only two blocks in a row that are quiet and
- *  agree with each other count, and the less they agree the less they count.
+ *  agree with each other count, and the less they agree the less they count. Both are judged by
+ *  lengths of vectors, so that a turned sensor learns the same.
  *
  *  Frames  b: sensor, any mounting.
  *
@@ -27,20 +28,20 @@ extern "C" {
 /* clang-format off */
 #define INSOLE_STILL_BIAS_KEYS(KEY)                                                               \
     KEY(REAL, block_s, 0.125, 0.02, 2.0, "s", "length of a block")                                \
-    KEY(REAL, quiet_gyro_radps, 0.025, 0.0, 1.0, "rad/s",                                         \
-        "largest standard deviation of a gyro axis at rest; 0 = no bias is learned")              \
-    KEY(REAL, quiet_accel_mps2, 0.1, 0.0, 10.0, "m/s^2",                                          \
-        "largest standard deviation of an accelerometer axis at rest")                            \
-    KEY(REAL, agree_radps, 0.015, 0.0, 1.0, "rad/s",                                              \
+    KEY(REAL, quiet_gyro_radps, 0.035, 0.0, 1.0, "rad/s",                                         \
+        "largest standard deviation of the gyro at rest, all axes; 0 = no bias is learned")       \
+    KEY(REAL, quiet_accel_mps2, 0.14, 0.0, 10.0, "m/s^2",                                          \
+        "largest standard deviation of the accelerometer at rest, all axes")                      \
+    KEY(REAL, agree_radps, 0.018, 0.0, 1.0, "rad/s",                                              \
         "largest difference of the gyro means of two blocks in a row")                            \
-    KEY(REAL, agree_mps2, 0.08, 0.0, 10.0, "m/s^2",                                               \
+    KEY(REAL, agree_mps2, 0.1, 0.0, 10.0, "m/s^2",                                               \
         "and of their accelerometer means: a foot that rolls turns gravity, a bias does not")     \
     KEY(REAL, sigma_bias_radps, 0.015, 1.0e-6, 1.0, "rad/s",                                      \
         "1-sigma of the bias when switched on")                                                   \
     KEY(REAL, bias_walk_radps_rts, 2.0e-4, 0.0, 0.1, "rad/s/sqrt(s)", "random walk of the bias")  \
     KEY(REAL, sigma_block_radps, 0.0015, 1.0e-6, 1.0, "rad/s",                                    \
         "1-sigma of the mean of two blocks that agree perfectly")                                 \
-    KEY(REAL, agree_weight, 3.0, 0.0, 100.0, "",                                                  \
+    KEY(REAL, agree_weight, 2.3, 0.0, 100.0, "",                                                  \
         "how much their difference adds to it")                                                   \
     KEY(REAL, gravity_s, 4.0, 0.0, 3600.0, "s",                                                   \
         "rests this soon after the first sample tell the magnitude of gravity; 0 = never")        \
