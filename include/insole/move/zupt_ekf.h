@@ -48,7 +48,7 @@ extern "C" {
         "1-sigma of the accelerometer bias at the start; 0 = nine states, no bias")               \
     KEY(REAL, accel_bias_walk_mps2_rts, 1.0e-4, 0.0, 0.1, "m/s^2/sqrt(s)",                        \
         "random walk of the accelerometer bias")                                                  \
-    KEY(REAL, sigma_zupt_mps, 0.027, 0.0001, 1.0, "m/s",                                           \
+    KEY(REAL, sigma_zupt_mps, 0.028, 0.0001, 1.0, "m/s",                                           \
         "1-sigma of a stance's velocity over 5 ms; other intervals in proportion")                \
     KEY(REAL, roll_height_m, 0.09, 0.0, 0.5, "m",                                                 \
         "height of the sensor over the line the foot rolls on; 0 = a stance stands still")
