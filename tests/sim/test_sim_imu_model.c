@@ -117,7 +117,7 @@ START_TEST(a_sensor_without_errors_reads_the_truth)
 }
 END_TEST
 
-static const double rates[] = {60.0, 200.0, 1000.0};
+static const double rates[] = {50.0, 200.0, 1000.0};
 
 START_TEST(white_noise_is_as_dense_as_told)
 {

@@ -102,7 +102,7 @@ START_TEST(fast_ringing_is_followed)
 }
 END_TEST
 
-static const double rates[] = {60.0, 100.0, 166.7, 200.0, 333.0, 1000.0};
+static const double rates[] = {50.0, 100.0, 166.7, 200.0, 333.0, 1000.0};
 enum { RATES = sizeof rates / sizeof rates[0] };
 
 START_TEST(point_samples_are_the_motion_at_the_sample)

@@ -42,6 +42,23 @@ START_TEST(comments_blanks_and_line_ends_do_not_matter)
 }
 END_TEST
 
+START_TEST(building_goals_and_errands_are_read_as_written)
+{
+    sim_scenario_t s = scenario_of("plan, a plan.csv\ngoal,1,2,the desk\nstart,0,0,0\ngoal,-3,4\n"
+                                   "errands,12\naps,b.csv # here\n");
+    ck_assert_str_eq(s.plan_file, "a plan.csv");
+    ck_assert_str_eq(s.aps_file, "b.csv");
+    ck_assert_uint_eq(s.goals.count, 2u);
+    const sim_goal_t *first = sim_list_at(&s.goals, 0), *second = sim_list_at(&s.goals, 1);
+    ck_assert(first->at.x_m == 1.0 && first->at.y_m == 2.0 && first->line == 2);
+    ck_assert(second->at.x_m == -3.0 && second->at.y_m == 4.0 && second->line == 4);
+    ck_assert_uint_eq(s.orders.count, 2u);
+    ck_assert(order_at(&s, 1)->kind == SIM_ORDER_ERRANDS && order_at(&s, 1)->goals == 12.0);
+    ck_assert_uint_eq(s.plan.walls.count + s.aps.count, 0u);
+    sim_scenario_free(&s);
+}
+END_TEST
+
 START_TEST(without_settings_all_are_defaults)
 {
     sim_scenario_t s = scenario_of("start,0,0,0\n");
@@ -80,7 +97,20 @@ static const struct {
     {"start,0,0,0\npause\n", 2, "too few fields, expected pause,seconds"},
     {"start,0,0,90\n", 1, "heading is '90', expected a number from -6.3 to 6.3"},
     {"start,0,0,0\nturn\n", 2, "too few fields, expected turn,heading"},
-    {"start,0,0,0\nimu.rate_hz = 5\n", 2, "imu.rate_hz is '5', expected a number from 60"},
+    {"start,0,0,0\nerrands\n", 2, "too few fields, expected errands,goals"},
+    {"start,0,0,0\nerrands,0\n", 2, "goals is '0', expected a number from 1 to 1000"},
+    {"start,0,0,0\nerrands,2.5\n", 2, "goals is 2.5, expected a whole number"},
+    {"errands,3\n", 1, "'errands' is out of place"},
+    {"goal,1\n", 1, "too few fields, expected goal,x,y[,name]"},
+    {"goal,1,a\n", 1, "y is 'a', expected a number"},
+    {"plan\n", 1, "expected plan,FILE with the name of a file beside the scenario"},
+    {"plan,\n", 1, "expected plan,FILE"},
+    {"plan,../a.csv\n", 1, "expected plan,FILE"},
+    {"plan,a.csv,b.csv\n", 1, "expected plan,FILE"},
+    {"plan,a.csv\nplan,b.csv\n", 2, "a second plan, expected one"},
+    {"aps,a/b\n", 1, "expected aps,FILE"},
+    {"aps,a\naps,a\n", 2, "a second aps, expected one"},
+    {"start,0,0,0\nimu.rate_hz = 5\n", 2, "imu.rate_hz is '5', expected a number from 50"},
     {"start,0,0,0\nrate = 5\n", 2, "no setting is called 'rate'"},
     {"start,0,0,0\n= 5\n", 2, "no setting is called ''"},
 };
@@ -99,17 +129,17 @@ END_TEST
 
 START_TEST(long_lines_are_refused)
 {
-    char text[1200];
+    char text[9000];
     sim_scenario_t scenario;
     sim_error_t error;
     memset(text, ' ', sizeof text);
     memcpy(text, "start,0,0,0\n", 12);
     ck_assert(!scenario_read_bytes(text, sizeof text, &scenario, &error));
-    ck_assert_msg(strstr(error.text, "too long, expected at most 510") != NULL, "%s", error.text);
+    ck_assert_msg(strstr(error.text, "too long, expected at most 4094") != NULL, "%s", error.text);
     ck_assert_int_eq(error.line, 2);
     /* the longest that is taken */
-    text[12 + 510] = '\n';
-    ck_assert(scenario_read_bytes(text, 12 + 511, &scenario, &error));
+    text[12 + 4094] = '\n';
+    ck_assert(scenario_read_bytes(text, 12 + 4095, &scenario, &error));
     sim_scenario_free(&scenario);
 }
 END_TEST
@@ -150,6 +180,7 @@ Suite *insole_suite(void)
 {
     Suite *suite = suite_create("sim/scenario");
     suite_add(suite, "orders", orders_are_read_as_written);
+    suite_add(suite, "building", building_goals_and_errands_are_read_as_written);
     suite_add(suite, "white space", comments_blanks_and_line_ends_do_not_matter);
     suite_add(suite, "defaults", without_settings_all_are_defaults);
     suite_add_loop(suite, "refusals", malformed_lines_are_refused_by_number,

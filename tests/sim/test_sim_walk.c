@@ -169,7 +169,7 @@ START_TEST(a_turned_mounting_turns_the_readings)
 }
 END_TEST
 
-static const double rates[] = {60.0, 66.7, 100.0, 200.0, 400.0, 1000.0};
+static const double rates[] = {50.0, 66.7, 100.0, 200.0, 400.0, 1000.0};
 
 START_TEST(samples_come_at_their_rate_until_the_end)
 {

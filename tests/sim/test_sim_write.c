@@ -81,6 +81,122 @@ START_TEST(log_and_truth_have_the_agreed_form)
 }
 END_TEST
 
+/* A file beside the scenarios of this suite. */
+static void write_beside(const char *file, const char *text)
+{
+    char path[600];
+    snprintf(path, sizeof path, "%s/%s", SIM_OUTPUT_DIR, file);
+    FILE *stream = fopen(path, "w");
+    ck_assert_ptr_nonnull(stream);
+    fputs(text, stream);
+    fclose(stream);
+}
+
+#define PLAN  "# a hall\nloss,7\noutline,0,0,20,0,20,9,0,9\nwall,3,5,5,9,5\n"
+#define APS   "x,y,id,p0_dbm\n2,8,first,-40\n18,1,se cond,-41\n"
+#define RADIO "plan,walks_plan.csv\naps,walks_aps.csv\nradio.period_s = 0.25\n"
+
+START_TEST(scans_are_merged_into_the_log)
+{
+    char error[512];
+    sim_report_t report;
+    write_beside("walks_plan.csv", PLAN);
+    write_beside("walks_aps.csv", APS);
+    const char *text = RADIO WALK "radio.late_share = 0.3\n";
+    ck_assert_msg(simulate("radio", text, 1, &report, error) == 0, "%s", error);
+    char *log = text_of("radio", "log.csv");
+    double last = -1.0, t, dbm, age, late = 0.0, signals = 0.0;
+    char id[20];
+    for (const char *at = strchr(log, '\n') + 1; *at != '\0'; at = strchr(at, '\n') + 1) {
+        if (sscanf(at, "imu,%lf", &t) != 1) {
+            int fields = sscanf(at, "rss,%lf,%19[^,],%lf,%lf\n", &t, id, &dbm, &age);
+            ck_assert_msg(fields >= 3, "%.40s", at);
+            ck_assert(strcmp(id, "first") == 0 || strcmp(id, "se cond") == 0);
+            ck_assert(dbm == round(dbm) && dbm > -100.0 && dbm < -30.0);
+            ck_assert(fields == 3 || (age > 0.0 && age < 10.0));
+            late += fields == 4 ? 1.0 : 0.0;
+            signals += 1.0;
+        }
+        ck_assert_msg(t >= last, "%g after %g", t, last);
+        last = t;
+    }
+    ASSERT_NEAR(signals, 8.0 * report.duration_s, 10.0, "signals");
+    ASSERT_NEAR(signals, (double)report.signals, 0.0, "signals");
+    ASSERT_NEAR(late / signals, 0.3, 0.15, "1");
+    free(log);
+    ck_assert_int_eq(simulate("radio", RADIO WALK "radio.late_share = 1\nradio.age = silent\n", 1,
+                              &report, error),
+                     0);
+    log = text_of("radio", "log.csv");
+    for (const char *at = strstr(log, "\nrss"); at != NULL; at = strstr(at + 1, "\nrss")) {
+        ck_assert_int_eq(sscanf(at, "\nrss,%lf,%19[^,],%lf,%lf", &t, id, &dbm, &age), 3);
+    }
+    free(log);
+}
+END_TEST
+
+START_TEST(the_radio_leaves_the_sensor_alone)
+{
+    char error[512];
+    ck_assert_int_eq(simulate("with", RADIO WALK, 3, NULL, error), 0);
+    ck_assert_int_eq(simulate("without", WALK, 3, NULL, error), 0);
+    char *with = text_of("with", "log.csv"), *without = text_of("without", "log.csv");
+    size_t kept = 0;
+    for (char *at = with, *next; *at != '\0'; at = next) { /* the log without its scans */
+        next = strchr(at, '\n') + 1;
+        if (strncmp(at, "rss", 3) != 0) {
+            memmove(with + kept, at, (size_t)(next - at));
+            kept += (size_t)(next - at);
+        }
+    }
+    ck_assert_uint_eq(kept, strlen(without));
+    ck_assert_int_eq(memcmp(with, without, kept), 0);
+    free(with);
+    free(without);
+}
+END_TEST
+
+START_TEST(plan_and_access_points_are_written_too)
+{
+    char error[512];
+    ck_assert_int_eq(simulate("site", RADIO WALK "radio.near = told\n", 1, NULL, error), 0);
+    char *plan = text_of("site", "plan.csv"), *aps = text_of("site", "aps.csv");
+    ck_assert_str_eq(plan, PLAN);
+    ck_assert_str_eq(aps, APS);
+    free(plan);
+    free(aps);
+    ck_assert_int_eq(simulate("site", RADIO WALK "radio.model = matched\n", 1, NULL, error), 0);
+    aps = text_of("site", "aps.csv");
+    /* -40 - 20 lg of 1.5 m aside and 1.4 m up */
+    ck_assert_str_eq(aps, "id,x,y,z,p0_dbm,exponent,near_dbm\nfirst,2,8,,-40,,-46.2\n"
+                          "se cond,18,1,,-41,,-47.2\n");
+    free(aps);
+}
+END_TEST
+
+static const struct {
+    const char *plan, *aps, *says;
+} bad_sites[] = {
+    {"outline,0,0,1\n", APS, "/walks_plan.csv:1: a point has no y"},
+    {"\nroom,0,0,1\n", APS, "/walks_plan.csv:2: 'room' is no part of a plan"},
+    {PLAN, "id,x,y\n\na,1\n", "/walks_aps.csv:3: too few fields"},
+    {PLAN, "a,1,2\n", "/walks_aps.csv:1: the column 'a' is unknown"},
+    {"outline,0,0,5,0,5,9,0,9\n", APS, ".scenario:5: the way to 8,3 crosses a wall"},
+};
+
+START_TEST(bad_plans_and_access_points_are_refused_with_file_and_line)
+{
+    char error[512];
+    write_beside("walks_plan.csv", bad_sites[_i].plan);
+    write_beside("walks_aps.csv", bad_sites[_i].aps);
+    int done = simulate("badsite", RADIO WALK, 1, NULL, error);
+    write_beside("walks_plan.csv", PLAN);
+    write_beside("walks_aps.csv", APS);
+    ck_assert_int_eq(done, -1);
+    ck_assert_msg(strstr(error, bad_sites[_i].says) != NULL, "says: %s", error);
+}
+END_TEST
+
 START_TEST(the_report_tells_what_was_simulated)
 {
     char error[512];
@@ -190,6 +306,8 @@ END_TEST
 START_TEST(files_that_cannot_be_opened_are_told)
 {
     char error[512];
+    ck_assert_int_eq(simulate("noplan", "plan,nowhere.csv\n" WALK, 1, NULL, error), -1);
+    ck_assert_ptr_nonnull(strstr(error, "/nowhere.csv: cannot be opened"));
     int done = sim_write_scenario(OUT "_nowhere/scenario", OUT "_x", 1, NULL, error, sizeof error);
     ck_assert_int_eq(done, -1);
     ck_assert_ptr_nonnull(strstr(error, "_nowhere/scenario: cannot be opened"));
@@ -244,6 +362,11 @@ Suite *insole_suite(void)
 {
     Suite *suite = suite_create("sim/write");
     suite_add(suite, "form", log_and_truth_have_the_agreed_form);
+    suite_add(suite, "scans", scans_are_merged_into_the_log);
+    suite_add(suite, "sensor", the_radio_leaves_the_sensor_alone);
+    suite_add(suite, "site", plan_and_access_points_are_written_too);
+    suite_add_loop(suite, "bad site", bad_plans_and_access_points_are_refused_with_file_and_line,
+                   (int)(sizeof bad_sites / sizeof bad_sites[0]));
     suite_add(suite, "report", the_report_tells_what_was_simulated);
     suite_add(suite, "seeds", equal_seeds_write_equal_files);
     suite_add(suite, "truth rate", truth_comes_at_its_own_rate);

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "sim/scenario.h"
 
-#include <ctype.h>
-#include <stdlib.h>
+#include <errno.h>
+#include <math.h>
 #include <string.h>
 
-enum { LINE_BYTES = 512, MAX_FIELDS = 4 };
+#include "sim/text.h"
+
+enum { MAX_FIELDS = 4, PATH_BYTES = 1024 };
 
 /* A number that an order names, and where it goes. */
 typedef struct {
@@ -52,22 +54,8 @@ static const form_t forms[] = {
      {FIELD_X, FIELD_Y, FIELD_Z, FIELD("speed", speed_mps, 0.2, 1.2)}},
     {"pause", SIM_ORDER_PAUSE, 1, 1, "pause,seconds", {FIELD("seconds", seconds, 0.0, 36000.0)}},
     {"turn", SIM_ORDER_TURN, 1, 1, "turn,heading", {FIELD_HEADING}},
+    {"errands", SIM_ORDER_ERRANDS, 1, 1, "errands,goals", {FIELD("goals", goals, 1.0, 1000.0)}},
 };
-
-/* Cuts the comment and the white space around what is left. */
-static char *trim(char *text)
-{
-    text[strcspn(text, "#")] = '\0';
-    while (isspace((unsigned char)*text)) {
-        text++;
-    }
-    size_t length = strlen(text);
-    while (length > 0 && isspace((unsigned char)text[length - 1])) {
-        length--;
-    }
-    text[length] = '\0';
-    return text;
-}
 
 static const form_t *find_form(const char *name)
 {
@@ -82,35 +70,18 @@ static const form_t *find_form(const char *name)
 static bool read_field(sim_order_t *order, const field_t *field, const char *text,
                        sim_error_t *error)
 {
-    char *end;
-    double number = strtod(text, &end);
-    if (end == text || *end != '\0' || !(number >= field->low && number <= field->high)) {
-        return sim_fail(error, "%s is '%s', expected a number from %g to %g", field->name, text,
-                        field->low, field->high);
+    double number;
+    if (!sim_text_number(text, field->name, field->low, field->high, &number, error)) {
+        return false;
     }
     memcpy((unsigned char *)order + field->offset, &number, sizeof number);
     return true;
 }
 
-/* Takes the text up to the next comma; NULL when there is none left. */
-static char *next_field(char **rest)
-{
-    char *field = *rest;
-    if (field == NULL) {
-        return NULL;
-    }
-    char *comma = strchr(field, ',');
-    *rest = comma == NULL ? NULL : comma + 1;
-    if (comma != NULL) {
-        *comma = '\0';
-    }
-    return trim(field);
-}
-
 static bool read_fields(sim_order_t *order, const form_t *form, char *rest, sim_error_t *error)
 {
     size_t count = 0;
-    for (char *text = next_field(&rest); text != NULL; text = next_field(&rest), count++) {
+    for (char *text = sim_text_field(&rest); text != NULL; text = sim_text_field(&rest), count++) {
         if (count == form->known) {
             return sim_fail(error, "too many fields, expected %s", form->usage);
         }
@@ -121,14 +92,15 @@ static bool read_fields(sim_order_t *order, const form_t *form, char *rest, sim_
     return count >= form->needed || sim_fail(error, "too few fields, expected %s", form->usage);
 }
 
-static bool read_order(sim_scenario_t *scenario, char *text, int line, sim_error_t *error)
+static bool read_order(sim_scenario_t *scenario, const char *name, char *rest, int line,
+                       sim_error_t *error)
 {
-    char *rest = text;
-    const char *name = next_field(&rest);
     const form_t *form = find_form(name);
     if (form == NULL) {
         return sim_fail(
-            error, "'%s' is no order, expected start, walk, stairs, pause, turn or key = value",
+            error,
+            "'%.60s' is no order, expected start, walk, stairs, pause, turn, errands, goal, plan, "
+            "aps or key = value",
             name);
     }
     bool is_first = scenario->orders.count == 0;
@@ -140,59 +112,168 @@ static bool read_order(sim_scenario_t *scenario, char *text, int line, sim_error
     if (!read_fields(&order, form, rest, error)) {
         return false;
     }
+    if (fmod(order.goals, 1.0) != 0.0) {
+        return sim_fail(error, "goals is %g, expected a whole number", order.goals);
+    }
     return sim_list_add(&scenario->orders, &order) || sim_fail(error, "out of memory");
 }
 
-static bool read_line(sim_scenario_t *scenario, char *line, int number, sim_error_t *error)
+static bool read_goal(sim_scenario_t *scenario, char *rest, int line, sim_error_t *error)
 {
-    char *text = trim(line);
-    char *equals = strchr(text, '=');
-    if (*text == '\0') {
-        return true;
+    sim_goal_t goal = {.line = line};
+    const char *x = sim_text_field(&rest), *y = sim_text_field(&rest);
+    if (y == NULL) {
+        return sim_fail(error, "too few fields, expected goal,x,y[,name]");
     }
-    if (equals == NULL) {
-        return read_order(scenario, text, number, error);
+    if (!sim_text_number(x, "x", -1e5, 1e5, &goal.at.x_m, error) ||
+        !sim_text_number(y, "y", -1e5, 1e5, &goal.at.y_m, error)) {
+        return false;
     }
-    *equals = '\0';
-    return sim_settings_set(&scenario->settings, trim(text), trim(equals + 1), error);
+    return sim_list_add(&scenario->goals, &goal) || sim_fail(error, "out of memory");
 }
 
-static bool read_lines(FILE *stream, sim_scenario_t *scenario, sim_error_t *error)
+/* The name of a file in the scenario's own folder. */
+static bool read_file_name(char name[SIM_FILE_BYTES], const char *what, char *rest,
+                           sim_error_t *error)
 {
-    char line[LINE_BYTES];
-    int number = 0;
-    while (fgets(line, sizeof line, stream) != NULL) {
-        number++;
-        if (strchr(line, '\n') == NULL && !feof(stream)) {
-            sim_fail(error, "the line is too long, expected at most %d characters", LINE_BYTES - 2);
-            return sim_fail_on_line(error, number);
-        }
-        if (!read_line(scenario, line, number, error)) {
-            return sim_fail_on_line(error, number);
-        }
+    const char *text = sim_text_field(&rest);
+    size_t length = text == NULL ? 0 : strlen(text);
+    if (rest != NULL || length == 0 || length >= SIM_FILE_BYTES || strchr(text, '/') != NULL) {
+        return sim_fail(error, "expected %s,FILE with the name of a file beside the scenario",
+                        what);
     }
-    if (ferror(stream)) {
-        return sim_fail(error, "cannot be read");
+    if (*name != '\0') {
+        return sim_fail(error, "a second %s, expected one", what);
     }
-    if (scenario->orders.count == 0) {
-        sim_fail(error, "the scenario has no start, expected %s", forms[0].usage);
-        return sim_fail_on_line(error, number + 1);
-    }
+    memcpy(name, text, length + 1);
     return true;
+}
+
+static bool read_statement(sim_scenario_t *scenario, char *text, int line, sim_error_t *error)
+{
+    char *rest = text;
+    const char *name = sim_text_field(&rest);
+    if (strcmp(name, "plan") == 0) {
+        return read_file_name(scenario->plan_file, name, rest, error);
+    }
+    if (strcmp(name, "aps") == 0) {
+        return read_file_name(scenario->aps_file, name, rest, error);
+    }
+    if (strcmp(name, "goal") == 0) {
+        return read_goal(scenario, rest, line, error);
+    }
+    return read_order(scenario, name, rest, line, error);
+}
+
+static bool read_line(void *state, char *text, int number, sim_error_t *error)
+{
+    sim_scenario_t *scenario = state;
+    char *equals = strchr(text, '=');
+    if (equals == NULL) {
+        return read_statement(scenario, text, number, error);
+    }
+    *equals = '\0';
+    return sim_settings_set(&scenario->settings, sim_text_trim(text), sim_text_trim(equals + 1),
+                            error);
 }
 
 bool sim_scenario_read(FILE *stream, sim_scenario_t *scenario, sim_error_t *error)
 {
-    scenario->settings = sim_settings_defaults;
-    scenario->orders = sim_list(sizeof(sim_order_t));
-    if (!read_lines(stream, scenario, error)) {
+    sim_scenario_t empty = {.settings = sim_settings_defaults,
+                            .orders = sim_list(sizeof(sim_order_t)),
+                            .goals = sim_list(sizeof(sim_goal_t)),
+                            .plan = sim_plan_empty(),
+                            .aps = sim_list(sizeof(sim_ap_t))};
+    *scenario = empty;
+    int lines;
+    bool good = sim_text_lines(stream, read_line, scenario, &lines, error);
+    if (good && scenario->orders.count == 0) {
+        sim_fail(error, "the scenario has no start, expected %s", forms[0].usage);
+        good = sim_fail_on_line(error, lines + 1);
+    }
+    if (!good) {
         sim_scenario_free(scenario);
+    }
+    return good;
+}
+
+/* Name of a file beside the scenario; cut when it is too long. */
+static void name_beside(const char *path, const char *file, char name[PATH_BYTES])
+{
+    const char *slash = strrchr(path, '/');
+    int folder = slash == NULL ? 0 : (int)(slash - path) + 1;
+    snprintf(name, PATH_BYTES, "%.*s%s", folder, path, file);
+}
+
+FILE *sim_scenario_open_beside(const char *path, const char *file, sim_error_t *error)
+{
+    char name[PATH_BYTES];
+    name_beside(path, file, name);
+    FILE *stream = fopen(name, "r");
+    if (stream == NULL) {
+        sim_fail(error, "cannot be opened: %s", strerror(errno));
+        sim_fail_in_file(error, name);
+    }
+    return stream;
+}
+
+static bool load_plan(const char *path, sim_scenario_t *scenario, sim_error_t *error)
+{
+    FILE *stream = sim_scenario_open_beside(path, scenario->plan_file, error);
+    if (stream == NULL) {
         return false;
     }
-    return true;
+    bool good = sim_plan_read(stream, &scenario->plan, error);
+    fclose(stream);
+    return good;
+}
+
+static bool load_aps(const char *path, sim_scenario_t *scenario, sim_error_t *error)
+{
+    FILE *stream = sim_scenario_open_beside(path, scenario->aps_file, error);
+    if (stream == NULL) {
+        return false;
+    }
+    bool good = sim_aps_read(stream, &scenario->aps, error);
+    fclose(stream);
+    return good;
+}
+
+static bool load_beside(const char *path, const char *file, sim_scenario_t *scenario,
+                        bool (*load)(const char *, sim_scenario_t *, sim_error_t *),
+                        sim_error_t *error)
+{
+    char name[PATH_BYTES];
+    if (file[0] == '\0' || load(path, scenario, error)) {
+        return true;
+    }
+    name_beside(path, file, name);
+    return sim_fail_in_file(error, name);
+}
+
+bool sim_scenario_load(const char *path, sim_scenario_t *scenario, sim_error_t *error)
+{
+    FILE *stream = fopen(path, "r");
+    if (stream == NULL) {
+        return sim_fail(error, "cannot be opened: %s", strerror(errno));
+    }
+    bool good = sim_scenario_read(stream, scenario, error);
+    fclose(stream);
+    if (!good) {
+        return false;
+    }
+    good = load_beside(path, scenario->plan_file, scenario, load_plan, error) &&
+           load_beside(path, scenario->aps_file, scenario, load_aps, error);
+    if (!good) {
+        sim_scenario_free(scenario);
+    }
+    return good;
 }
 
 void sim_scenario_free(sim_scenario_t *scenario)
 {
     sim_list_free(&scenario->orders);
+    sim_list_free(&scenario->goals);
+    sim_plan_free(&scenario->plan);
+    sim_list_free(&scenario->aps);
 }

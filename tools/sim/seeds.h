@@ -16,7 +16,14 @@ typedef enum {
     SIM_SEED_IMU_NOISE,
     SIM_SEED_IMU_DRIFT,
     SIM_SEED_IMU_STAMPS,
-    SIM_SEED_LOG
+    SIM_SEED_LOG,
+    SIM_SEED_ERRANDS,
+    SIM_SEED_RADIO_APS,
+    SIM_SEED_RADIO_WALLS,
+    SIM_SEED_RADIO_SHADOW,
+    SIM_SEED_RADIO_RECEIVER,
+    SIM_SEED_RADIO_SCANS,
+    SIM_SEED_RADIO_NOISE
 } sim_seed_stream_t;
 
 static inline void sim_seed(insole_rng_t *rng, uint64_t seed, sim_seed_stream_t stream)

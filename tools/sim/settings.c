@@ -17,13 +17,16 @@
 #define MOUNT_ROW(...)                                                                             \
     ROW("mount", offsetof(sim_settings_t, mount), sim_mount_settings_t, __VA_ARGS__)
 #define IMU_ROW(...) ROW("imu", offsetof(sim_settings_t, imu), sim_imu_settings_t, __VA_ARGS__)
+#define RADIO_ROW(...)                                                                             \
+    ROW("radio", offsetof(sim_settings_t, radio), sim_radio_settings_t, __VA_ARGS__)
+#define ERRANDS_ROW(...)                                                                           \
+    ROW("errands", offsetof(sim_settings_t, errands), sim_errands_settings_t, __VA_ARGS__)
 #define LOG_ROW(...) ROW("log", offsetof(sim_settings_t, log), sim_log_settings_t, __VA_ARGS__)
 
-const sim_settings_t sim_settings_defaults = {{SIM_WALK_KEYS(DEFAULT)},
-                                              {SIM_GAIT_KEYS(DEFAULT)},
-                                              {SIM_MOUNT_KEYS(DEFAULT)},
-                                              {SIM_IMU_KEYS(DEFAULT)},
-                                              {SIM_LOG_KEYS(DEFAULT)}};
+const sim_settings_t sim_settings_defaults = {
+    {SIM_WALK_KEYS(DEFAULT)}, {SIM_GAIT_KEYS(DEFAULT)},  {SIM_MOUNT_KEYS(DEFAULT)},
+    {SIM_IMU_KEYS(DEFAULT)},  {SIM_RADIO_KEYS(DEFAULT)}, {SIM_ERRANDS_KEYS(DEFAULT)},
+    {SIM_LOG_KEYS(DEFAULT)}};
 
 /* clang-format off */
 static const sim_key_t keys[] = {
@@ -31,6 +34,8 @@ static const sim_key_t keys[] = {
     SIM_GAIT_KEYS(GAIT_ROW)
     SIM_MOUNT_KEYS(MOUNT_ROW)
     SIM_IMU_KEYS(IMU_ROW)
+    SIM_RADIO_KEYS(RADIO_ROW)
+    SIM_ERRANDS_KEYS(ERRANDS_ROW)
     SIM_LOG_KEYS(LOG_ROW)
 };
 /* clang-format on */

@@ -89,7 +89,7 @@
 /** The sensor. `matched` leaves white noise alone, `ideal` nothing at all. */
 #define SIM_IMU_KEYS(KEY)                                                                          \
     KEY(CHOICE, model, 0, 0, 2, "full|matched|ideal", "which errors the sensor has")               \
-    KEY(REAL, rate_hz, 200.0, 60.0, 1000.0, "Hz", "samples per second")                            \
+    KEY(REAL, rate_hz, 200.0, 50.0, 1000.0, "Hz", "samples per second")                            \
     KEY(CHOICE, sampling, 0, 0, 1, "average|point",                                                \
         "a sample is the mean since the one before, or the value at its stamp")                    \
     KEY(REAL, accel_noise_mps2_rthz, 0.00098, 0.0, 0.1, "m/s^2/sqrt(Hz)",                          \
@@ -124,6 +124,57 @@
     KEY(REAL, dropouts_hz, 0.0, 0.0, 10.0, "1/s", "how often samples get lost; 0 = never")         \
     KEY(REAL, dropout_s, 0.02, 0.0, 10.0, "s", "mean duration of such a gap")
 
+/** The radio that hears access points, and the building it hears them in. */
+#define SIM_RADIO_KEYS(KEY)                                                                        \
+    KEY(CHOICE, model, 0, 0, 2, "full|matched|off",                                                \
+        "how signals are made; matched: white noise is the only error")                            \
+    KEY(REAL, building, 1.0, 0.0, 1e9, "1",                                                        \
+        "number of the building; 0 = another one for each seed")                                   \
+    KEY(REAL, period_s, 1.0, 0.05, 3600.0, "s", "time from scan to scan")                          \
+    KEY(REAL, jitter_s, 0.05, 0.0, 1.0, "s", "variation of the times of the scans, 1-sigma")       \
+    KEY(REAL, missed_share, 0.02, 0.0, 1.0, "1", "scans that never come")                          \
+    KEY(REAL, late_share, 0.05, 0.0, 1.0, "1", "scans that reach the log late")                    \
+    KEY(REAL, late_s, 0.4, 0.01, 60.0, "s", "mean age of those")                                   \
+    KEY(CHOICE, age, 1, 0, 1, "silent|told", "whether a late scan tells its age")                  \
+    KEY(CHOICE, place, 0, 0, 1, "sensor|body", "what carries the radio")                           \
+    KEY(REAL, height_m, 1.1, 0.0, 3.0, "m", "height on the body over the soles")                   \
+    KEY(REAL, p0_dbm, -40.0, -90.0, 20.0, "dBm",                                                   \
+        "received at 1 m, where the file of the access points does not tell")                      \
+    KEY(REAL, exponent, 2.0, 1.0, 6.0, "1", "path loss exponent, where it does not tell")          \
+    KEY(REAL, ap_height_m, 2.5, -100.0, 1000.0, "m",                                               \
+        "z of an access point, where it does not tell")                                            \
+    KEY(CHOICE, near, 1, 0, 1, "told|surveyed",                                                    \
+        "near_dbm in the written aps.csv: as told, or the true mean at 1.5 m")                     \
+    KEY(REAL, p0_spread_db, 2.5, 0.0, 30.0, "dB", "error of what the file tells, 1-sigma")         \
+    KEY(REAL, exponent_spread, 0.15, 0.0, 1.0, "1", "the same of the exponent")                    \
+    KEY(REAL, wall_db, 6.0, 0.0, 100.0, "dB", "loss of a wall, where the plan does not tell")      \
+    KEY(REAL, wall_spread, 0.25, 0.0, 1.0, "1", "error of what the plan tells, 1-sigma, relative") \
+    KEY(REAL, wall_keep, 0.8, 0.0, 1.0, "1",                                                       \
+        "a further wall takes this share of what the one before took")                             \
+    KEY(REAL, shadow_db, 3.5, 0.0, 20.0, "dB",                                                     \
+        "shadowing, 1-sigma; each access point has its own")                                       \
+    KEY(REAL, shadow_m, 4.0, 0.3, 100.0, "m", "distance at which its correlation is 1/e")          \
+    KEY(REAL, rice_db, 7.0, -20.0, 60.0, "dB",                                                     \
+        "fast fading: power of the direct path over the scattered")                                \
+    KEY(REAL, body_db, 6.8, 0.0, 40.0, "dB", "loss straight behind the walker; 0 ahead")           \
+    KEY(REAL, offset_db, 2.0, 0.0, 20.0, "dB", "error of the receiver, 1-sigma")                   \
+    KEY(REAL, step_db, 1.0, 0.0, 10.0, "dB", "smallest step of a reading; 0 = off")                \
+    KEY(REAL, floor_dbm, -92.0, -200.0, 0.0, "dBm",                                                \
+        "half of the signals of this strength are heard")                                          \
+    KEY(REAL, floor_soft_db, 1.5, 0.01, 20.0, "dB",                                                \
+        "softness of that: of those twice this below, 12 % are")                                   \
+    KEY(REAL, lost_share, 0.02, 0.0, 1.0, "1", "signals that get lost in a scan")                  \
+    KEY(REAL, noise_db, 4.0, 0.0, 30.0, "dB", "1-sigma of the noise of a matched model")
+
+/** Ways of seeded errands. */
+#define SIM_ERRANDS_KEYS(KEY)                                                                      \
+    KEY(REAL, speed_mps, 1.3, 0.4, 1.8, "m/s", "mean speed")                                       \
+    KEY(REAL, speed_spread, 0.1, 0.0, 0.3, "1",                                                    \
+        "variation from errand to errand, 1-sigma, relative")                                      \
+    KEY(REAL, pause_s, 4.0, 0.0, 600.0, "s", "mean time at each goal; from none to twice as long") \
+    KEY(REAL, shortest_m, 6.0, 0.0, 1000.0, "m", "a goal is at least this far")                    \
+    KEY(REAL, clearance_m, 0.45, 0.2, 2.0, "m", "distance kept from walls")
+
 /** What is written. */
 #define SIM_LOG_KEYS(KEY)                                                                          \
     KEY(CHOICE, start, 1, 0, 1, "none|known", "whether the log tells where the walk begins")       \
@@ -148,6 +199,12 @@ typedef struct {
     SIM_IMU_KEYS(SIM_KEY_MEMBER)
 } sim_imu_settings_t;
 typedef struct {
+    SIM_RADIO_KEYS(SIM_KEY_MEMBER)
+} sim_radio_settings_t;
+typedef struct {
+    SIM_ERRANDS_KEYS(SIM_KEY_MEMBER)
+} sim_errands_settings_t;
+typedef struct {
     SIM_LOG_KEYS(SIM_KEY_MEMBER)
 } sim_log_settings_t;
 
@@ -156,12 +213,18 @@ enum { SIM_MODEL_FULL, SIM_MODEL_MATCHED, SIM_MODEL_IDEAL };
 enum { SIM_SAMPLING_AVERAGE, SIM_SAMPLING_POINT };
 enum { SIM_CLIP_HARD, SIM_CLIP_SOFT };
 enum { SIM_START_NONE, SIM_START_KNOWN };
+enum { SIM_RADIO_FULL, SIM_RADIO_MATCHED, SIM_RADIO_OFF };
+enum { SIM_AGE_SILENT, SIM_AGE_TOLD };
+enum { SIM_CARRIED_BY_SENSOR, SIM_CARRIED_BY_BODY };
+enum { SIM_NEAR_TOLD, SIM_NEAR_SURVEYED };
 
 typedef struct {
     sim_walk_settings_t walk;
     sim_gait_settings_t gait;
     sim_mount_settings_t mount;
     sim_imu_settings_t imu;
+    sim_radio_settings_t radio;
+    sim_errands_settings_t errands;
     sim_log_settings_t log;
 } sim_settings_t;
 

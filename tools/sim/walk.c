@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "sim/errands.h"
 #include "sim/strides.h"
 
 static const double walked_m = 0.3; /* a stride that leads somewhere */
@@ -41,12 +42,25 @@ static sim_place_t start_place(const sim_scenario_t *scenario)
     return place;
 }
 
+/* Errands become walks, orders a path. */
+static bool plan_route(sim_route_t *route, const sim_scenario_t *scenario, uint64_t seed,
+                       sim_error_t *error)
+{
+    sim_list_t orders;
+    if (!sim_errands_plan(scenario, seed, &orders, error)) {
+        return false;
+    }
+    bool done = sim_route_plan(&orders, &scenario->settings.walk, route, error);
+    sim_list_free(&orders);
+    return done;
+}
+
 /* Route, steps, strides: each is made from the one before. */
 static bool plan(sim_walk_t *walk, const sim_scenario_t *scenario, uint64_t seed,
                  sim_error_t *error)
 {
     const sim_settings_t *settings = &scenario->settings;
-    if (!sim_route_plan(&scenario->orders, &settings->walk, &walk->route, error)) {
+    if (!plan_route(&walk->route, scenario, seed, error)) {
         return false;
     }
     sim_place_t start = start_place(scenario);

@@ -8,69 +8,36 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "sim/walk.h"
-
-enum { PATH_BYTES = 1024 };
+#include "sim/scans.h"
+#include "sim/site.h"
 
 /* The files of one walk. */
 typedef struct {
     FILE *log, *truth;
     double truth_hz;
     long truth_rows;
+    const sim_list_t *aps;
+    bool tells_age;
+    sim_list_t heard; /* of sim_heard_t */
+    size_t written;   /* of those */
 } output_t;
-
-static bool read_scenario(const char *path, sim_scenario_t *scenario, sim_error_t *error)
-{
-    FILE *stream = fopen(path, "r");
-    if (stream == NULL) {
-        return sim_fail(error, "cannot be opened: %s", strerror(errno));
-    }
-    bool done = sim_scenario_read(stream, scenario, error);
-    fclose(stream);
-    return done;
-}
-
-static FILE *create(const char *folder, const char *name, sim_error_t *error)
-{
-    char path[PATH_BYTES];
-    int length = snprintf(path, sizeof path, "%s/%s", folder, name);
-    if (length < 0 || (size_t)length >= sizeof path) {
-        sim_fail(error, "the name of the output folder is too long");
-        return NULL;
-    }
-    FILE *stream = fopen(path, "w");
-    if (stream == NULL) {
-        sim_fail(error, "%.300s cannot be written: %s", path, strerror(errno));
-    }
-    return stream;
-}
 
 static bool open_output(output_t *output, const char *folder, sim_error_t *error)
 {
     if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
         return sim_fail(error, "%.300s cannot be made: %s", folder, strerror(errno));
     }
-    output->log = create(folder, "log.csv", error);
+    output->log = sim_site_create(folder, "log.csv", error);
     if (output->log == NULL) {
         return false;
     }
-    output->truth = create(folder, "truth.csv", error);
+    output->truth = sim_site_create(folder, "truth.csv", error);
     return output->truth != NULL;
-}
-
-/* False when something did not reach a file. */
-static bool close_file(FILE *stream)
-{
-    if (stream == NULL) {
-        return false;
-    }
-    bool good = ferror(stream) == 0;
-    return fclose(stream) == 0 && good;
 }
 
 static bool close_output(output_t *output)
 {
-    bool log = close_file(output->log), truth = close_file(output->truth);
+    bool log = sim_site_close(output->log), truth = sim_site_close(output->truth);
     return log && truth;
 }
 
@@ -121,11 +88,27 @@ static void write_truth(output_t *output, const sim_sample_t *sample)
     }
 }
 
+/* The signals that reach the log up to a time. */
+static void write_heard(output_t *output, double t_s)
+{
+    const sim_heard_t *heard = sim_list_at(&output->heard, output->written);
+    while (heard != NULL && heard->t_s <= t_s) {
+        const sim_ap_t *ap = sim_list_at(output->aps, heard->ap);
+        fprintf(output->log, "rss,%.6f,%s,%.6g", heard->t_s, ap->id, heard->dbm);
+        if (output->tells_age && heard->age_s > 0.0) {
+            fprintf(output->log, ",%.3f", heard->age_s);
+        }
+        fputc('\n', output->log);
+        heard = sim_list_at(&output->heard, ++output->written);
+    }
+}
+
 static void write_samples(output_t *output, sim_walk_t *walk)
 {
     sim_sample_t sample;
     fputs("t,x,y,z\n", output->truth);
     while (sim_walk_next(walk, &sample)) {
+        write_heard(output, sample.truth.t_s);
         if (sample.given) {
             write_imu(output->log, &sample.imu);
         }
@@ -144,33 +127,49 @@ static void fill_report(sim_report_t *report, const sim_walk_t *walk)
     report->clipped = imu->clipped;
 }
 
-static bool write_walk(sim_walk_t *walk, const sim_log_settings_t *settings, const char *folder,
-                       uint64_t seed, sim_error_t *error)
+static bool write_files(output_t *output, sim_walk_t *walk, const sim_log_settings_t *settings,
+                        const char *folder, uint64_t seed, sim_error_t *error)
 {
-    output_t output = {.truth_hz = settings->truth_hz};
-    if (!open_output(&output, folder, error)) {
-        close_output(&output);
+    if (!open_output(output, folder, error)) {
+        close_output(output);
         return false;
     }
     if (settings->start == SIM_START_KNOWN) {
-        write_start(output.log, walk, settings, seed);
+        write_start(output->log, walk, settings, seed);
     }
-    write_samples(&output, walk);
-    return close_output(&output) || sim_fail(error, "%.300s cannot be written to", folder);
+    write_samples(output, walk);
+    return close_output(output) || sim_fail(error, "%.300s cannot be written to", folder);
+}
+
+static bool write_walk(sim_walk_t *walk, const sim_scenario_t *scenario, const char *folder,
+                       uint64_t seed, sim_report_t *report, sim_error_t *error)
+{
+    const sim_log_settings_t *settings = &scenario->settings.log;
+    output_t output = {.truth_hz = settings->truth_hz,
+                       .aps = &scenario->aps,
+                       .tells_age = scenario->settings.radio.age == SIM_AGE_TOLD};
+    if (!sim_scans_make(walk, scenario, seed, &output.heard, error)) {
+        return false;
+    }
+    bool done = write_files(&output, walk, settings, folder, seed, error);
+    fill_report(report, walk);
+    report->signals = (uint32_t)output.written;
+    sim_list_free(&output.heard);
+    return done;
 }
 
 static bool simulate(const char *path, const char *folder, uint64_t seed, sim_report_t *report,
                      sim_error_t *error)
 {
-    sim_scenario_t scenario = {.settings = sim_settings_defaults};
-    if (!read_scenario(path, &scenario, error)) {
+    sim_scenario_t scenario;
+    if (!sim_scenario_load(path, &scenario, error)) {
         return false;
     }
     bool done = false;
     sim_walk_t *walk = sim_walk_open(&scenario, seed, error);
     if (walk != NULL) {
-        done = write_walk(walk, &scenario.settings.log, folder, seed, error);
-        fill_report(report, walk);
+        done = write_walk(walk, &scenario, folder, seed, report, error) &&
+               sim_site_write(path, &scenario, seed, folder, error);
         sim_walk_close(walk);
     }
     sim_scenario_free(&scenario);
@@ -188,10 +187,11 @@ int sim_write_scenario(const char *scenario_path, const char *out_dir, uint64_t 
     if (error == NULL) {
         return -1;
     }
+    const char *file = reason.file[0] == '\0' ? scenario_path : reason.file;
     if (reason.line > 0) {
-        snprintf(error, error_size, "%s:%d: %s", scenario_path, reason.line, reason.text);
+        snprintf(error, error_size, "%s:%d: %s", file, reason.line, reason.text);
     } else {
-        snprintf(error, error_size, "%s: %s", scenario_path, reason.text);
+        snprintf(error, error_size, "%s: %s", file, reason.text);
     }
     return -1;
 }

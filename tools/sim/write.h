@@ -1,8 +1,9 @@
 /** @file write.h  From a scenario file to the files of a simulated walk.
  *
- *  Writes into a folder, which is made if it is not there: `log.csv` with a `start` record and one
- *  `imu` record per sample, and `truth.csv` with the header `t,x,y,z`: the true position of the
- *  sensor.
+ *  Writes into a folder, which is made if it is not there: `log.csv` with a `start` record, one
+ *  `imu` record per sample and the `rss` records of the scans, in the order of time; `truth.csv`
+ *  with the header `t,x,y,z`: the true position of the sensor; and `plan.csv` and `aps.csv`, if the
+ *  scenario names them.
  *
  *      char error[512];
  *      if (sim_write_scenario("maps/demo/scenario", "out", 1, &report, error, sizeof error) != 0)
@@ -21,6 +22,7 @@ typedef struct {
     double distance_m; /**< along the path, level */
     uint32_t steps;    /**< of both feet */
     uint32_t samples, lost, clipped;
+    uint32_t signals; /**< `rss` records */
 } sim_report_t;
 
 /** @param report  may be NULL
