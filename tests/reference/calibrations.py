@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Calibrations find what was put into simulated sensors, and what they print makes tracks better."""
+"""Calibrations find what was put into simulated sensors; what they print makes tracks better."""
 import math
 import pathlib
 import re
@@ -67,7 +67,8 @@ def turning(rng, turns, scale, axis):
 
 def check_gyro_scale(program, checks):
     rng = support.generator("turns")
-    for turns, scale, axis in ((3, 1.012, (0, 0, 1)), (10, 0.985, (1, 2, -1)), (20, 1.0, (1, 0, 0))):
+    for turns, scale, axis in ((3, 1.012, (0, 0, 1)), (10, 0.985, (1, 2, -1)),
+                               (20, 1.0, (1, 0, 0))):
         log = support.write_imu(program.folder / "turns.csv", turning(rng, turns, scale, axis))
         found = settings(calibrate(program, "gyro-scale", log, "--turns", turns))
         checks.within(f"gyro scale from {turns} turns", found["sensor.gyro_scale"],
@@ -117,7 +118,7 @@ def check_stride(program, checks):
 
 
 def way(rows):
-    """Length of what the rows show, in steps of a second: the way of the walker, not of the foot."""
+    """Length of what the rows show, in steps of a second: of the walker's way, not the foot's."""
     places = [rows[0]]
     for row in rows:
         if row["t"] - places[-1]["t"] >= 1.0:

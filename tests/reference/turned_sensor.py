@@ -17,8 +17,8 @@ import program as support  # noqa: E402
 LIMIT_MM = 5.0
 RANDOM_TURNS = 6
 UPSIDE_DOWN = [[1, 0, 0], [0, -1, 0], [0, 0, -1]]
-AXES_ONTO_AXES = [UPSIDE_DOWN, [[0, 1, 0], [0, 0, 1], [1, 0, 0]], [[0, -1, 0], [1, 0, 0], [0, 0, 1]],
-                  [[0, 0, 1], [0, -1, 0], [1, 0, 0]]]
+AXES_ONTO_AXES = [UPSIDE_DOWN, [[0, 1, 0], [0, 0, 1], [1, 0, 0]],
+                  [[0, -1, 0], [1, 0, 0], [0, 0, 1]], [[0, 0, 1], [0, -1, 0], [1, 0, 0]]]
 UNCLIPPED = ["llio_32", "llio_45", "vicon_2017-11-22-11-37-47", "openshoe_31"]
 CLIPPED = ["llio_36", "vicon_2017-11-22-11-44-47"]
 RANGE_TOLD = ["--set", "screen.gyro_range_radps=60"]

@@ -151,8 +151,8 @@ def stamps(bench, rng):
 
 
 def holes(bench, seconds, grows_m):
-    """A hole in a turn costs the direction, and with it metres at the end: the median over many holes
-    is held, and the reported sigma must know of each."""
+    """A hole in a turn costs the direction, and with it metres at the end: the median over many
+    holes is held, and the reported sigma must know of each."""
     found = [bench.replay(dropout(bench.samples, 0.2 + 0.06 * k, seconds)) for k in range(10)]
     errors = [rms_m for rms_m, _ in found]
     honest = sum(rms_m <= 3.0 * summary["final"]["sigma_m"] for rms_m, summary in found)

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """The prefix law: what is known of a walk does not change when the log goes on.
 
-Every recording is cut in five places; the rows of the cut log are, byte for byte, those of the whole
-log up to half a second before its end. Some are cut in the same way with a row per reading, and
-through standard input, in small pieces and in one.
+Every recording is cut in five places; the rows of the cut log are, byte for byte, those of the
+whole log up to half a second before its end. Some are cut in the same way with a row per reading,
+and come through standard input in small pieces.
 """
 import pathlib
 import subprocess
