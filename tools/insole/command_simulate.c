@@ -22,11 +22,13 @@ static bool parse_seed(const arguments_t *arguments, int64_t *seed, failure_t *f
 static void print_report(const sim_report_t *report)
 {
     char duration[NUMBER_ROOM], distance[NUMBER_ROOM];
-    fprintf(stderr, "simulated %s s, %s m in %lu steps: %lu readings, %lu lost, %lu clipped\n",
+    fprintf(stderr,
+            "simulated %s s, %s m in %lu steps: %lu readings, %lu lost, %lu clipped, "
+            "%lu signals\n",
             number_fixed(duration, report->duration_s, 1),
             number_fixed(distance, report->distance_m, 1), (unsigned long)report->steps,
             (unsigned long)report->samples, (unsigned long)report->lost,
-            (unsigned long)report->clipped);
+            (unsigned long)report->clipped, (unsigned long)report->signals);
 }
 
 static bool run(const arguments_t *arguments, failure_t *failure)
@@ -50,7 +52,7 @@ static bool run(const arguments_t *arguments, failure_t *failure)
 }
 
 static const option_t options[] = {
-    {"out", "DIR", "folder for log.csv and truth.csv; made if it is not there"},
+    {"out", "DIR", "folder for log, truth, plan and access points; made if it is not there"},
     {"seed", "N", "of the randomness: equal seeds give equal walks (default 1)"},
     {NULL, NULL, NULL}};
 
