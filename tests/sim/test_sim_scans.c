@@ -144,6 +144,31 @@ START_TEST(a_matched_radio_hears_where_the_truth_is)
 }
 END_TEST
 
+START_TEST(a_late_scan_tells_where_it_was_heard)
+{
+    setup_t s;
+    scan(&s,
+         "start,0,0,0\nwalk,40,0,1.3\nradio.late_share = 0.5\nradio.late_s = 2\n"
+         "radio.period_s = 0.3\nradio.p0_spread_db = 0\nradio.exponent_spread = 0\n"
+         "radio.shadow_db = 0\nradio.rice_db = 60\nradio.body_db = 0\nradio.offset_db = 0\n"
+         "radio.step_db = 0\nradio.floor_dbm = -200\n",
+         "id,x,y,z,p0_dbm,exponent\na,-3,0,0,-40,2\n", 1);
+    sim_body_t body = sim_walk_body(s.walk);
+    worst_t off = {0.0, 0.0};
+    double oldest = 0.0;
+    for (size_t i = 0; i < s.heard.count; i++) {
+        const sim_heard_t *h = heard_at(&s, i);
+        sim_vec3_t at = body.pose(body.state, when_heard(h)).position_m;
+        double distance = pow(10.0, (-40.0 - h->dbm) / 20.0);
+        worst_note(&off, fabs(distance / hypot(at.x + 3.0, hypot(at.y, at.z)) - 1.0), h->t_s);
+        oldest = fmax(oldest, h->age_s);
+    }
+    ASSERT_WORST(off, 0.01, "of the distance"); /* what fading is left */
+    ASSERT_AT_LEAST(oldest, 3.0, "s");
+    finish(&s);
+}
+END_TEST
+
 START_TEST(a_radio_on_the_body_goes_with_it)
 {
     setup_t s;
@@ -191,6 +216,7 @@ Suite *insole_suite(void)
     suite_add(suite, "times", times_vary_scans_get_lost_and_some_are_late);
     suite_add(suite, "order", the_log_is_in_order_and_within_the_walk);
     suite_add(suite, "matched", a_matched_radio_hears_where_the_truth_is);
+    suite_add(suite, "late", a_late_scan_tells_where_it_was_heard);
     suite_add(suite, "body", a_radio_on_the_body_goes_with_it);
     suite_add(suite, "seeds", equal_seeds_hear_the_same);
     return suite;
