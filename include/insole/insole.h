@@ -25,6 +25,7 @@
 #include "insole/move/stride.h"
 #include "insole/move/zupt_cov.h"
 #include "insole/move/zupt_ekf.h"
+#include "insole/move/zupt_smooth.h"
 #include "insole/place/floor_plan.h"
 #include "insole/place/floor_plan_build.h"
 #include "insole/place/propagation.h"
@@ -38,6 +39,7 @@
 #include "insole/sense/zero_velocity.h"
 #include "insole/track/foot_anchor.h"
 #include "insole/track/foot_config.h"
+#include "insole/track/foot_smooth.h"
 #include "insole/track/foot_tracker.h"
 #include "insole/track/foot_walk.h"
 

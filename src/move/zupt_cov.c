@@ -55,7 +55,6 @@ void insole_zupt_cov_correct_velocity(insole_zupt_cov_t *P, insole_sym3_t W, ins
 {
     insole_mat3_t av = insole_mat3_transpose(P->va);
     insole_mat3_t K_p = insole_mat3_mul_sym(P->pv, W); /* [TwoOrder (25)] */
-    insole_mat3_t K_v = insole_mat3_mul_sym(insole_sym3_full(P->vv), W);
     insole_mat3_t K_a = insole_mat3_mul_sym(av, W);
     insole_sym3_t pp = insole_mat3_mul_t_sym(K_p, P->pv);
     insole_sym3_t aa = insole_mat3_mul_t_sym(K_a, av);
@@ -72,7 +71,8 @@ void insole_zupt_cov_correct_velocity(insole_zupt_cov_t *P, insole_sym3_t W, ins
         P->vb = insole_mat3_scale(insole_mat3_transpose(K_b), r);
     }
     P->pv = insole_mat3_scale(K_p, r);
-    P->vv = insole_mat3_symmetric(insole_mat3_scale(K_v, r));
+    insole_sym3_t K_v = insole_mat3_mul_t_sym(insole_sym3_full(P->vv), insole_sym3_full(W));
+    P->vv = insole_sym3_add_scaled(insole_sym3_zero(), r, K_v);
     P->va = insole_mat3_scale(insole_mat3_transpose(K_a), r);
 }
 

@@ -250,11 +250,12 @@ static void bridge(insole_foot_tracker_t *t, insole_labelled_t *s)
     insole_vec3_t gyro = insole_vec3_add(ekf->last_gyro_radps, t->still_bias.gyro_bias_radps);
     s->imu.accel_mps2 = insole_vec3_middle(accel, s->imu.accel_mps2);
     s->imu.gyro_radps = insole_vec3_middle(gyro, s->imu.gyro_radps);
-    navigate(t, s);
-    insole_real_t var_v = insole_square(BRIDGE_ACCEL_MPS2 * ekf->dt_s);
-    insole_real_t var_a = insole_square(BRIDGE_GYRO_RADPS * ekf->dt_s);
+    insole_real_t gap_s = seconds(ekf->t_us, s->imu.t_us);
+    insole_real_t var_v = insole_square(BRIDGE_ACCEL_MPS2 * gap_s);
+    insole_real_t var_a = insole_square(BRIDGE_GYRO_RADPS * gap_s);
     ekf->P.vv = insole_sym3_add_diagonal(ekf->P.vv, var_v);
     ekf->P.aa = insole_sym3_add_diagonal(ekf->P.aa, var_a);
+    navigate(t, s);
     t->counts.bridged++;
 }
 

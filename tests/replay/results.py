@@ -101,6 +101,7 @@ def table(bench):
         "| xio short, long: end 3-D |",
         "|---|---|---|---|---|---|---|",
         row(bench, "**defaults**: adaptive detector, 12 states"),
+        row(bench, "smoothed (`--smooth`)", ["--smooth"]),
         row(bench, "9 states (no accelerometer bias)",
             ["--set", "zupt_ekf.sigma_accel_bias_mps2=0"]),
         row(bench, "without the level-floor rule", ["--set", "foot_tracker.floor_step_m=0"]),

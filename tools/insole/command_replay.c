@@ -211,6 +211,7 @@ static const option_t options[] = {
      "pdr: strides of modelled length in the inertial direction"},
     REPLAY_OPTIONS,
     {"rate", "HZ", "rows of the track per second (default 10); 0: one per reading"},
+    {"smooth", NULL, "look back: what comes after a moment counts for it too; rows come late"},
     {"out", "FILE", "write the track; - is standard output. Without --out none is written"},
     {"format", "FORMAT", "of the track: csv (default), tum or geojson"},
     {"events", "FILE", "write stances and strides as CSV"},

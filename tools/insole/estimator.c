@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "estimator.h"
 
+#include <stdlib.h>
 #include <string.h>
 
+#include "memory.h"
 #include "number.h"
+
+/* Fixes that are smoothed together, and how many of them wait for the next window: at 200 Hz 164 s
+ * and 41 s, far longer than a later stance reaches back. */
+enum { SMOOTH_FIXES = 32768, SMOOTH_KEEP = 8192 };
 
 /* The library counts from 0 and never back; a log may begin before its own zero. */
 static const uint64_t log_zero_us = UINT64_C(1) << 62;
@@ -25,11 +31,24 @@ static insole_real_t to_real(double value)
                                                   : (insole_real_t)NUMBER_UNKNOWN;
 }
 
-bool estimator_init(estimator_t *estimator, const settings_t *settings)
+bool estimator_init(estimator_t *estimator, const settings_t *settings, bool is_smooth)
 {
     memset(estimator, 0, sizeof *estimator);
     estimator->sensor = settings->sensor;
+    estimator->is_smooth = is_smooth;
+    if (is_smooth) {
+        estimator->nodes = memory_new(SMOOTH_FIXES, sizeof *estimator->nodes);
+        estimator->fixes = memory_new(SMOOTH_FIXES, sizeof *estimator->fixes);
+        (void)insole_foot_smooth_init(&estimator->past, estimator->nodes, estimator->fixes,
+                                      SMOOTH_FIXES);
+    }
     return insole_foot_tracker_init(&estimator->foot, &settings->foot) == INSOLE_OK;
+}
+
+void estimator_free(estimator_t *estimator)
+{
+    free(estimator->nodes);
+    free(estimator->fixes);
 }
 
 static void push_start(estimator_t *estimator, const record_t *record)
@@ -123,17 +142,61 @@ static void convert_fix(const insole_fix_t *from, track_row_t *to)
     to->state = from->state;
 }
 
-bool estimator_next(estimator_t *estimator, track_row_t *fix)
+static void remember(estimator_t *estimator)
 {
-    insole_fix_t library_fix;
-    if (insole_foot_tracker_next(&estimator->foot, &library_fix) != INSOLE_OK) {
+    const insole_foot_tracker_t *foot = &estimator->foot;
+    if (insole_foot_smooth_push(&estimator->past, foot, &estimator->fix) == INSOLE_ERR_ROOM) {
+        (void)insole_foot_smooth_run(&estimator->past, SMOOTH_KEEP);
+        estimator->is_held = true;
+    }
+}
+
+bool estimator_step(estimator_t *estimator)
+{
+    if (insole_foot_tracker_next(&estimator->foot, &estimator->fix) != INSOLE_OK) {
         return false;
     }
-    convert_fix(&library_fix, fix);
     take_stride(estimator);
-    watch_stance(estimator, fix->t_us);
-    estimator->fix_us = fix->t_us;
+    watch_stance(estimator, to_log(estimator->fix.t_us));
+    estimator->fix_us = to_log(estimator->fix.t_us);
+    if (estimator->is_smooth) {
+        remember(estimator);
+    } else {
+        estimator->has_fix = true;
+    }
     return true;
+}
+
+/* A fix that found no room is remembered once the older ones have left. */
+static bool take_smooth(estimator_t *estimator, insole_fix_t *fix)
+{
+    if (insole_foot_smooth_take(&estimator->past, fix) == INSOLE_OK) {
+        return true;
+    }
+    if (estimator->is_held) {
+        estimator->is_held = false;
+        (void)insole_foot_smooth_push(&estimator->past, &estimator->foot, &estimator->fix);
+    }
+    return false;
+}
+
+bool estimator_take(estimator_t *estimator, track_row_t *fix)
+{
+    insole_fix_t smoothed;
+    bool is_smooth = estimator->is_smooth && take_smooth(estimator, &smoothed);
+    if (!is_smooth && !estimator->has_fix) {
+        return false;
+    }
+    convert_fix(is_smooth ? &smoothed : &estimator->fix, fix);
+    estimator->has_fix = false;
+    return true;
+}
+
+void estimator_settle(estimator_t *estimator)
+{
+    if (estimator->is_smooth) {
+        (void)insole_foot_smooth_run(&estimator->past, 0u);
+    }
 }
 
 bool estimator_event(estimator_t *estimator, foot_event_t *event)

@@ -2,15 +2,25 @@
  *
  *  It takes records and gives rows, both on the log's clock. There is no way in for truth.
  *
- *      estimator_init(&estimator, &settings);
+ *      estimator_init(&estimator, &settings, is_smooth);
  *      estimator_push(&estimator, &record);
- *      while (estimator_next(&estimator, &fix)) ...
- *      estimator_finish(&estimator);         then take what is left
+ *      while (estimator_step(&estimator)) {
+ *          while (estimator_event(&estimator, &event)) ...
+ *          while (estimator_take(&estimator, &fix)) ...
+ *      }
+ *      estimator_finish(&estimator);         then step again; then
+ *      estimator_settle(&estimator);         and take what is left
+ *      estimator_free(&estimator);
+ *
+ *  Smoothing holds fixes back: those of a long window are smoothed together, the older part leaves,
+ *  the newer waits for what comes after it.
  *
  *  SPDX-License-Identifier: MIT
  */
 #ifndef INSOLE_HOST_ESTIMATOR_H
 #define INSOLE_HOST_ESTIMATOR_H
+
+#include "insole/track/foot_smooth.h"
 
 #include "record.h"
 #include "settings.h"
@@ -40,20 +50,35 @@ typedef struct {
     bool is_still;
     foot_event_t stance, stride; /**< newest, until taken */
     bool has_stance, has_stride;
+    insole_fix_t fix; /**< newest, until taken */
+    bool has_fix, is_smooth;
+    insole_foot_smooth_t past;
+    insole_zupt_node_t *nodes; /**< of the past; NULL unless smoothed */
+    insole_foot_past_t *fixes;
+    bool is_held; /**< `fix` waits for room in the past */
 } estimator_t;
 
 /** @return false when the library does not take the settings */
-bool estimator_init(estimator_t *estimator, const settings_t *settings);
+bool estimator_init(estimator_t *estimator, const settings_t *settings, bool is_smooth);
+
+void estimator_free(estimator_t *estimator);
 
 /** Takes START and IMU records; others mean nothing to it. */
 void estimator_push(estimator_t *estimator, const record_t *record);
 
-bool estimator_next(estimator_t *estimator, track_row_t *fix);
+/** One fix more is computed. @return false when the tracker has none */
+bool estimator_step(estimator_t *estimator);
 
-/** A stance or stride that ended with the last fix. */
+/** The next fix that is as good as it gets. */
+bool estimator_take(estimator_t *estimator, track_row_t *fix);
+
+/** A stance or stride that ended with the last step. */
 bool estimator_event(estimator_t *estimator, foot_event_t *event);
 
-/** The log has ended. */
+/** The log has ended: the tracker gives what it holds. */
 void estimator_finish(estimator_t *estimator);
+
+/** No step is left: nothing waits for what comes after it any more. */
+void estimator_settle(estimator_t *estimator);
 
 #endif

@@ -42,21 +42,31 @@ static bool give_rows(run_t *run, failure_t *failure)
     return true;
 }
 
-/* Everything that the tracker has ready. */
-static bool drain(run_t *run, failure_t *failure)
+/* The fixes that are ready. */
+static bool give_fixes(run_t *run, failure_t *failure)
 {
     track_row_t fix;
-    while (estimator_next(&run->estimator, &fix)) {
+    while (estimator_take(&run->estimator, &fix)) {
         run->facts->first_us = run->facts->fixes == 0u ? fix.t_us : run->facts->first_us;
         run->facts->last_us = fix.t_us;
         run->facts->last = fix;
         run->facts->fixes++;
         row_maker_push(&run->rows, &fix);
-        if (!give_rows(run, failure) || !give_events(run, failure)) {
+        if (!give_rows(run, failure)) {
             return false;
         }
     }
     return true;
+}
+
+/* Everything that the tracker can tell by now. */
+static bool drain(run_t *run, failure_t *failure)
+{
+    bool is_good = true;
+    while (is_good && estimator_step(&run->estimator)) {
+        is_good = give_fixes(run, failure) && give_events(run, failure);
+    }
+    return is_good;
 }
 
 static void tell_start(run_t *run, const record_t *start)
@@ -118,7 +128,11 @@ static bool run_stream(run_t *run, failure_t *failure)
         return false;
     }
     estimator_finish(&run->estimator);
-    return drain(run, failure);
+    if (!drain(run, failure)) {
+        return false;
+    }
+    estimator_settle(&run->estimator);
+    return give_fixes(run, failure);
 }
 
 static bool open_stream(run_t *run, failure_t *failure)
@@ -149,11 +163,12 @@ bool replay_run(const replay_request_t *request, const replay_sink_t *sink, repl
     run->sink = sink;
     run->facts = facts;
     row_maker_init(&run->rows, request->rate_hz);
-    bool is_good = estimator_init(&run->estimator, &request->settings) ||
+    bool is_good = estimator_init(&run->estimator, &request->settings, request->is_smooth) ||
                    failure_input(failure, "insole: the tracker does not take these settings");
     is_good = is_good && open_stream(run, failure) && run_stream(run, failure);
     gather_facts(run);
     sensor_stream_close(&run->stream);
+    estimator_free(&run->estimator);
     free(run);
     return is_good;
 }

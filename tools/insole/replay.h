@@ -15,6 +15,7 @@ typedef struct {
     settings_t settings;
     const char *accel_unit, *gyro_unit; /**< NULL: m/s^2, rad/s */
     double rate_hz;                     /**< rows per second; 0: one per fix */
+    bool is_smooth;                     /**< what comes after a moment counts for it too */
     bool has_start;                     /**< `start` counts, those in the logs do not */
     bool no_start;                      /**< those in the logs do not count */
     record_t start;                     /**< its time is that of the first reading */

@@ -79,6 +79,7 @@ bool replay_options_parse(const arguments_t *arguments, replay_request_t *reques
     request->accel_unit = options_value(arguments, "accel-unit");
     request->gyro_unit = options_value(arguments, "gyro-unit");
     request->rate_hz = 10.0;
+    request->is_smooth = options_has(arguments, "smooth");
     settings_init(&request->settings);
     if (request->log_count == 0u) {
         return failure_usage(failure,
