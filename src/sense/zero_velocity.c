@@ -3,8 +3,7 @@
 
 #include "insole/base/fastmath.h"
 
-#define ZERO INSOLE_R(0.0)
-#define ONE  INSOLE_R(1.0)
+#define ONE INSOLE_R(1.0)
 
 enum {
     RATE_SAMPLES = 16, /* samples from which the window's length is found */
@@ -145,7 +144,7 @@ static bool is_least_of_past(const insole_zero_velocity_t *zv, insole_real_t sta
     for (uint32_t i = 1u; i < INSOLE_STANCE_PAST; i++) {
         least = insole_min(least, zv->past[i]);
     }
-    return statistic < least;
+    return statistic <= least;
 }
 
 static bool is_least_of_future(insole_zero_velocity_t *zv, uint32_t number)
@@ -171,11 +170,12 @@ static bool is_in_swing(const insole_zero_velocity_t *zv, const insole_stance_sl
            insole_log(k->statistic) > zv->usual_log + c->early_log;
 }
 
+/* A minimum; of several that are equal the first. */
 static bool is_guaranteed(insole_zero_velocity_t *zv, uint32_t number)
 {
     const insole_stance_slot_t *k = slot(zv, number);
-    bool falling = number == zv->ring.begin || k->statistic <= slot(zv, number - 1u)->statistic;
-    bool rising = number + 1u == zv->measured || k->statistic < slot(zv, number + 1u)->statistic;
+    bool falling = number == zv->ring.begin || k->statistic < slot(zv, number - 1u)->statistic;
+    bool rising = number + 1u == zv->measured || k->statistic <= slot(zv, number + 1u)->statistic;
     return falling && rising && k->statistic < zv->config.guaranteed_threshold &&
            is_least_of_past(zv, k->statistic) && is_least_of_future(zv, number) &&
            !is_in_swing(zv, k);
@@ -331,13 +331,9 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
         zv->refused++;
         return status;
     }
-    insole_stance_slot_t s = {imu->accel_mps2,
-                              imu->gyro_radps,
-                              ZERO,
-                              (uint32_t)imu->t_us,
-                              (uint32_t)(imu->t_us >> 32),
-                              tag,
-                              0u};
+    insole_stance_slot_t s = {imu->accel_mps2, imu->gyro_radps, INSOLE_R(0.0), 0u, 0u, tag, 0u};
+    s.t_us = (uint32_t)imu->t_us;
+    s.high_us = (uint32_t)(imu->t_us >> 32);
     zv->slots[insole_ring_push(&zv->ring)] = s;
     zv->newest_us = imu->t_us;
     measure(zv);

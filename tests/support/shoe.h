@@ -21,6 +21,7 @@ static insole_imu_t samples[SHOE_SAMPLES_MAX];
 static insole_fix_t fixes[SHOE_SAMPLES_MAX];
 static uint32_t sample_count, fix_count;
 static insole_foot_tracker_t shoe;
+static uint64_t noise_seed = 11u;
 
 /** 100 m, as one loop or straight on. */
 static inline walk_t hundred_metres(bool loop)
@@ -35,7 +36,7 @@ static inline walk_t hundred_metres(bool loop)
 static inline void record(const walk_t *walk, double rate_hz, double begin_s)
 {
     insole_rng_t rng;
-    insole_rng_seed(&rng, 11u);
+    insole_rng_seed(&rng, noise_seed);
     sample_count = 0u;
     for (double dt = 1.0 / rate_hz, t = begin_s + dt; t < walk_end_s(walk); t += dt) {
         ck_assert_uint_lt(sample_count, SHOE_SAMPLES_MAX);

@@ -193,7 +193,7 @@ END_TEST
 /* Strides without the rests around them, of every gait and at many rates of rolling. */
 START_TEST(stances_never_feed_it)
 {
-    static const double ROLL_RADPS[] = {0.1, 0.13, 0.15, 0.25, 0.4, 0.8};
+    static const double ROLL_RADPS[] = {0.13, 0.15, 0.2, 0.25, 0.4, 0.8};
     const walk_t *gaits[] = {&WALK, &RUN, &STAIRS, &CRAWL};
     walk_t walk = *gaits[_i % 4];
     walk.roll_radps = ROLL_RADPS[_i / 4];
