@@ -30,11 +30,11 @@ extern "C" {
     KEY(REAL, block_s, 0.125, 0.02, 2.0, "s", "length of a block")                                \
     KEY(REAL, quiet_gyro_radps, 0.035, 0.0, 1.0, "rad/s",                                         \
         "largest standard deviation of the gyro at rest, all axes; 0 = no bias is learned")       \
-    KEY(REAL, quiet_accel_mps2, 0.14, 0.0, 10.0, "m/s^2",                                          \
+    KEY(REAL, quiet_accel_mps2, 0.14, 0.0, 10.0, "m/s^2",                                         \
         "largest standard deviation of the accelerometer at rest, all axes")                      \
     KEY(REAL, agree_radps, 0.018, 0.0, 1.0, "rad/s",                                              \
         "largest difference of the gyro means of two blocks in a row")                            \
-    KEY(REAL, agree_mps2, 0.1, 0.0, 10.0, "m/s^2",                                               \
+    KEY(REAL, agree_mps2, 0.08, 0.0, 10.0, "m/s^2",                                               \
         "and of their accelerometer means: a foot that rolls turns gravity, a bias does not")     \
     KEY(REAL, sigma_bias_radps, 0.015, 1.0e-6, 1.0, "rad/s",                                      \
         "1-sigma of the bias when switched on")                                                   \
