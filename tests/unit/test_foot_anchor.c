@@ -219,7 +219,7 @@ START_TEST(bad_starts_are_refused)
 {
     insole_start_t bad;
     insole_real_t *fields[] = {&bad.x_m, &bad.y_m, &bad.sigma_m, &bad.heading_rad, &bad.sigma_rad};
-    const double outside[] = {NAN, INFINITY, -INFINITY, 1.1e6, -1.1e6};
+    const double outside[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1.1e6, -1.1e6};
     set_up(&START, at(0.0, 0.0, 0.0), 3000000u);
     for (int i = 0; i < 25; i++) {
         bad = START;
@@ -242,7 +242,7 @@ END_TEST
 START_TEST(other_bad_arguments_are_refused)
 {
     insole_fix_t fix = fix_at(1.0, 2.0, 3.0, 0u), bad = fix;
-    insole_vec3_t origin = insole_vec3_zero(), nowhere = at(NAN, 0.0, 0.0);
+    insole_vec3_t origin = insole_vec3_zero(), nowhere = at((double)NAN, 0.0, 0.0);
     insole_foot_anchor_t *a = &anchor;
     set_up(&START, origin, 3000000u);
     before = anchor;
