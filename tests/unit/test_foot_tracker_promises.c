@@ -121,7 +121,7 @@ END_TEST
 
 static insole_real_t garbage(insole_rng_t *rng)
 {
-    const double values[] = {NAN, INFINITY, -INFINITY, 3.0e38, -3.0e38, 1.0e4, -160.0, 0.0};
+    const double values[] = {(double)NAN, HUGE_VAL, -HUGE_VAL, 3.0e38, -3.0e38, 1.0e4, -160.0, 0.0};
     return (insole_real_t)values[insole_rng_bits(rng) % 8u];
 }
 
