@@ -21,6 +21,12 @@ static double minus_quarter_turns(double x, double k)
     return (x - k * 1.5703125) - k * 4.838267948966192e-4;
 }
 
+static insole_turn_t turn_of(double x)
+{
+    insole_turn_t turn = {cos(x), sin(x)};
+    return turn;
+}
+
 #define sin_of               sin
 #define cos_of               cos
 #define atan_of              atan
@@ -47,7 +53,7 @@ static const uint32_t SQRT_HALF_BITS = 0x3f3504f3u;
 
 /* x - k pi/2 for |k| < 2^13, rounded once. The first three parts of pi/2 have 11 bits: their
  * products with k are exact, and so are the first two differences and what the third one loses. */
-static float minus_quarter_turns(float x, float k)
+static inline float minus_quarter_turns(float x, float k)
 {
     float coarse = (x - k * 1.5703125f) - k * 4.83751297e-4f;
     float fine = k * 7.54953362e-8f;
@@ -72,24 +78,41 @@ static float cos_eighth(float r)
     return 1.0f - (0.5f * z - z * z * c);
 }
 
-/* sin(x + quarters pi/2) */
-static float sin_shifted(float x, int32_t quarters)
+/* The nearest number of quarter turns, and what is left of the angle. */
+typedef struct {
+    int32_t quarters;
+    float rest;
+} reduced_t;
+
+static inline reduced_t reduce(float x)
 {
-    int32_t k = nearest(x * 0.636619772f);
-    float r = minus_quarter_turns(x, (float)k);
-    int32_t quadrant = k + quarters;
-    float s = (quadrant & 1) ? cos_eighth(r) : sin_eighth(r);
-    return (quadrant & 2) ? -s : s;
+    int32_t quarters = nearest(x * 0.636619772f);
+    reduced_t reduced = {quarters, minus_quarter_turns(x, (float)quarters)};
+    return reduced;
 }
 
 static float sin_of(float x)
 {
-    return sin_shifted(x, 0);
+    reduced_t r = reduce(x);
+    float s = (r.quarters & 1) ? cos_eighth(r.rest) : sin_eighth(r.rest);
+    return (r.quarters & 2) ? -s : s;
 }
 
 static float cos_of(float x)
 {
-    return sin_shifted(x, 1);
+    reduced_t r = reduce(x);
+    float c = (r.quarters & 1) ? sin_eighth(r.rest) : cos_eighth(r.rest);
+    return ((r.quarters + 1) & 2) ? -c : c;
+}
+
+static insole_turn_t turn_of(float x)
+{
+    reduced_t r = reduce(x);
+    float s = sin_eighth(r.rest), c = cos_eighth(r.rest);
+    insole_turn_t turn = {(r.quarters & 1) ? s : c, (r.quarters & 1) ? c : s};
+    turn.cos = ((r.quarters + 1) & 2) ? -turn.cos : turn.cos;
+    turn.sin = (r.quarters & 2) ? -turn.sin : turn.sin;
+    return turn;
 }
 
 /* For 0 <= x <= 1; minimax, 2^-27.2. */
@@ -162,6 +185,15 @@ insole_real_t insole_cos(insole_real_t x_rad)
         return x_rad != x_rad ? x_rad : INSOLE_R(1.0);
     }
     return cos_of(x_rad);
+}
+
+insole_turn_t insole_turn(insole_real_t x_rad)
+{
+    if (!(insole_abs(x_rad) <= ANGLE_MAX_RAD)) {
+        insole_turn_t beyond = {insole_cos(x_rad), insole_sin(x_rad)};
+        return beyond;
+    }
+    return turn_of(x_rad);
 }
 
 insole_real_t insole_atan2(insole_real_t y, insole_real_t x)

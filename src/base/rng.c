@@ -47,12 +47,32 @@ insole_real_t insole_rng_uniform(insole_rng_t *rng)
     return (insole_real_t)(insole_rng_bits(rng) >> 8) * INSOLE_R(5.9604644775390625e-8);
 }
 
+/* A point of the plane whose coordinates are normal, by distance and bearing. */
+typedef struct {
+    insole_real_t distance, bearing_rad;
+} polar_t;
+
 /* Box and Muller: no rejection, so every call costs the same and draws the same. The share is
  * uniform in (0, 1] with 32 bits near 0, where the far tail comes from. */
-insole_real_t insole_rng_normal(insole_rng_t *rng)
+static polar_t normal_point(insole_rng_t *rng)
 {
     insole_real_t share =
         ((insole_real_t)insole_rng_bits(rng) + INSOLE_R(0.5)) * INSOLE_R(2.3283064365386963e-10);
-    insole_real_t angle = INSOLE_R(2.0) * INSOLE_PI * insole_rng_uniform(rng);
-    return insole_sqrt(INSOLE_R(-2.0) * insole_log(share)) * insole_cos(angle);
+    polar_t point = {insole_sqrt(INSOLE_R(-2.0) * insole_log(share)),
+                     INSOLE_R(2.0) * INSOLE_PI * insole_rng_uniform(rng)};
+    return point;
+}
+
+insole_real_t insole_rng_normal(insole_rng_t *rng)
+{
+    polar_t point = normal_point(rng);
+    return point.distance * insole_cos(point.bearing_rad);
+}
+
+void insole_rng_normals(insole_rng_t *rng, insole_real_t *first, insole_real_t *second)
+{
+    polar_t point = normal_point(rng);
+    insole_turn_t bearing = insole_turn(point.bearing_rad);
+    *first = point.distance * bearing.cos;
+    *second = point.distance * bearing.sin;
 }

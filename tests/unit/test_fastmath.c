@@ -2,6 +2,8 @@
 #include "insole/base/fastmath.h"
 
 #include "fingerprint.h"
+#include <string.h>
+
 #include "near.h"
 #include "oracle.h"
 #include "suite.h"
@@ -344,6 +346,41 @@ START_TEST(wrapping_at_the_cut)
 }
 END_TEST
 
+static bool same_bits(insole_real_t a, insole_real_t b)
+{
+    return memcmp(&a, &b, sizeof a) == 0 || (a != a && b != b);
+}
+
+static void require_turn_at(worst_t *same, insole_real_t x)
+{
+    insole_turn_t turn = insole_turn(x);
+    worst_require(same, same_bits(turn.cos, insole_cos(x)), (double)x);
+    worst_require(same, same_bits(turn.sin, insole_sin(x)), (double)x);
+}
+
+/* Near every quarter turn, between them, beyond the range, and for what is no number. */
+START_TEST(turn_has_the_bits_of_cos_and_sin)
+{
+    worst_t same = {0.0, 0.0};
+    for (int k = -6366; k <= 6366; k++) {
+        insole_real_t x = (insole_real_t)((oracle_t)k * PI_EXACT / 2);
+        require_turn_at(&same, x);
+        require_turn_at(&same, REAL_NEXT(x, RANGE));
+        require_turn_at(&same, REAL_NEXT(x, -RANGE));
+        require_turn_at(&same, x + INSOLE_R(0.3));
+        require_turn_at(&same, x + INSOLE_R(0.9));
+    }
+    static const insole_real_t ODD[] = {INSOLE_R(0.0),     INSOLE_R(-0.0),  INSOLE_R(1e-30),
+                                        INSOLE_R(-1e-4),   INSOLE_R(1e4),   INSOLE_R(10001.0),
+                                        INSOLE_R(-1e9),    INSOLE_REAL_MAX, (insole_real_t)INFINITY,
+                                        (insole_real_t)NAN};
+    for (size_t i = 0; i < sizeof ODD / sizeof ODD[0]; i++) {
+        require_turn_at(&same, ODD[i]);
+    }
+    ASSERT_ALL_HELD(same);
+}
+END_TEST
+
 #ifndef INSOLE_DOUBLE
 START_TEST(same_bits_on_every_machine)
 {
@@ -371,6 +408,7 @@ Suite *insole_suite(void)
     suite_add(suite, "any bits", any_bits_give_a_finite_answer_unless_not_a_number);
     suite_add(suite, "odd and even", odd_and_even);
     suite_add(suite, "monotonic", exp_and_log_never_step_back);
+    suite_add(suite, "turn", turn_has_the_bits_of_cos_and_sin);
     suite_add(suite, "wrap", wrapped_angle_is_the_same_angle);
     suite_add(suite, "wrap leaves alone", wrapping_leaves_a_wrapped_angle_alone);
     suite_add(suite, "wrap at the cut", wrapping_at_the_cut);

@@ -235,6 +235,46 @@ START_TEST(normal_is_finite_at_its_ends)
 }
 END_TEST
 
+/* The first is the one that a single draw gives; as much is drawn. */
+START_TEST(the_first_of_two_normals_is_the_single_one)
+{
+    insole_rng_t pair = seeded(11u), single = seeded(11u);
+    worst_t same = {0.0, 0.0};
+    for (int i = 0; i < 10000; i++) {
+        insole_real_t first, second, alone = insole_rng_normal(&single);
+        insole_rng_normals(&pair, &first, &second);
+        worst_require(&same, memcmp(&first, &alone, sizeof first) == 0, i);
+    }
+    ASSERT_ALL_HELD(same);
+    ck_assert_int_eq(memcmp(&pair, &single, sizeof pair), 0);
+}
+END_TEST
+
+/* Mean, variance and fourth moment of the second, and nothing in common with the first: not even
+ * their squares have. */
+START_TEST(the_second_of_two_normals_is_normal_and_independent)
+{
+    insole_rng_t rng = seeded(12u);
+    double mean = 0.0, square = 0.0, fourth = 0.0, product = 0.0, squares = 0.0;
+    for (int i = 0; i < DRAWS; i++) {
+        insole_real_t first, second;
+        insole_rng_normals(&rng, &first, &second);
+        double a = (double)first, b = (double)second;
+        mean += b / DRAWS;
+        square += b * b / DRAWS;
+        fourth += b * b * b * b / DRAWS;
+        product += a * b / DRAWS;
+        squares += (a * a - 1.0) * (b * b - 1.0) / DRAWS;
+    }
+    double sigma = 1.0 / sqrt((double)DRAWS); /* four of them each */
+    ASSERT_NEAR(mean, 0.0, 4.0 * sigma, "");
+    ASSERT_NEAR(square, 1.0, 4.0 * sqrt(2.0) * sigma, "");
+    ASSERT_NEAR(fourth, 3.0, 4.0 * sqrt(96.0) * sigma, "");
+    ASSERT_NEAR(product, 0.0, 4.0 * sigma, "");
+    ASSERT_NEAR(squares, 0.0, 4.0 * 2.0 * sigma, "");
+}
+END_TEST
+
 START_TEST(a_copied_state_goes_on_alike)
 {
     insole_rng_t rng = seeded(9u);
@@ -279,6 +319,8 @@ Suite *insole_suite(void)
     suite_add(suite, "normal bins", normal_fills_its_bins);
     suite_add(suite, "normal tails", normal_is_right_in_the_tails);
     suite_add(suite, "normal ends", normal_is_finite_at_its_ends);
+    suite_add(suite, "first of two normals", the_first_of_two_normals_is_the_single_one);
+    suite_add(suite, "second of two normals", the_second_of_two_normals_is_normal_and_independent);
     suite_add(suite, "copied state", a_copied_state_goes_on_alike);
     suite_add(suite, "draws per call", calls_draw_a_fixed_number_of_bits);
     return suite;

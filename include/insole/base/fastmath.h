@@ -29,6 +29,14 @@ extern "C" {
 insole_real_t insole_sin(insole_real_t x_rad);
 insole_real_t insole_cos(insole_real_t x_rad);
 
+/** A direction, or a turn of the plane. */
+typedef struct {
+    insole_real_t cos, sin;
+} insole_turn_t;
+
+/** Both at once: the bits of insole_cos and insole_sin, for little more than the price of one. */
+insole_turn_t insole_turn(insole_real_t x_rad);
+
 /** Angle of the point (x, y), in (-pi, pi]. */
 insole_real_t insole_atan2(insole_real_t y, insole_real_t x);
 

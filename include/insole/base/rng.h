@@ -36,6 +36,10 @@ insole_real_t insole_rng_uniform(insole_rng_t *rng);
 /** Normal with mean 0 and standard deviation 1. */
 insole_real_t insole_rng_normal(insole_rng_t *rng);
 
+/** Two of them, independent, for little more than the price of one. The first is the number that
+ *  insole_rng_normal would have given. */
+void insole_rng_normals(insole_rng_t *rng, insole_real_t *first, insole_real_t *second);
+
 #ifdef __cplusplus
 }
 #endif

@@ -8,8 +8,27 @@
 #ifndef INSOLE_BASE_TYPES_H
 #define INSOLE_BASE_TYPES_H
 
+#include "insole/base/fastmath.h"
 #include "insole/base/quat.h"
 #include "insole/base/status.h"
+
+/** A place on the map, or a way on it. */
+typedef struct {
+    insole_real_t x_m, y_m;
+} insole_spot_t;
+
+static inline bool insole_spot_is_finite(insole_spot_t spot)
+{
+    return insole_is_finite(spot.x_m) && insole_is_finite(spot.y_m);
+}
+
+/** A way on the plane, turned; longer or shorter when `turn` is not of unit length. */
+static inline insole_spot_t insole_turn_way(insole_turn_t turn, insole_spot_t way)
+{
+    insole_spot_t turned = {turn.cos * way.x_m - turn.sin * way.y_m,
+                            turn.sin * way.x_m + turn.cos * way.y_m};
+    return turned;
+}
 
 /** One reading of accelerometer and gyroscope. */
 typedef struct {
