@@ -1,0 +1,60 @@
+/** @file cloud_source.h  A normal summary of a cloud: where it is, goes, and is drawn from.
+ *
+ *  Frames  n: level, of the strides.  m: map.
+ *
+ *      insole_cloud_source_t source = insole_cloud_source(&fix, sigma_scale);
+ *      insole_cloud_source_walk(&source, &stride);
+ *      insole_cloud_source_widen(&source, sigma_m, sigma_rad);
+ *      for each particle:
+ *          insole_cloud_source_draw(&source, &particle, &plan, &rng);
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_FUSE_CLOUD_SOURCE_H
+#define INSOLE_FUSE_CLOUD_SOURCE_H
+
+#include "insole/fuse/particle_cloud.h"
+#include "insole/place/floor_plan.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+    insole_real_t x_m, y_m;
+    insole_real_t var_x_m2, cov_xy_m2, var_y_m2;
+    insole_real_t offset_rad;       /**< from directions in n to directions in m */
+    insole_real_t sigma_offset_rad; /**< pi or more: any direction */
+    insole_real_t scale, sigma_scale;
+} insole_cloud_source_t;
+
+/** The summary of a cloud whose particles are to have such a scatter of scale. */
+insole_cloud_source_t insole_cloud_source(const insole_cloud_fix_t *fix, insole_real_t sigma_scale);
+
+/** The turn from ways in n to ways in m: the shorter the less its direction is known, so that the
+ *  way it gives is the mean of all. */
+insole_turn_t insole_cloud_source_turn(const insole_cloud_source_t *source);
+
+/** Goes where the stride takes the cloud, and grows by what is not known of it. */
+void insole_cloud_source_walk(insole_cloud_source_t *source, const insole_cloud_stride_t *stride);
+
+/** Adds to what is not known. */
+void insole_cloud_source_widen(insole_cloud_source_t *source, insole_real_t sigma_m,
+                               insole_real_t sigma_rad);
+
+/** Takes in a share (0 .. 1) of another: mean and covariance of place become those of the mixture;
+ *  offset and scale stay. */
+void insole_cloud_source_mix(insole_cloud_source_t *source, const insole_cloud_source_t *other,
+                             insole_real_t share);
+
+/** Draws one particle of weight 1. With a plan it is dead unless it is found in the walkable area
+ *  within a few attempts.
+ *  @param plan  NULL: it may be anywhere */
+void insole_cloud_source_draw(const insole_cloud_source_t *source, insole_particle_t *particle,
+                              const insole_floor_plan_t *plan, insole_rng_t *rng);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,166 @@
+/** @file particle_filter.h  Strides, inertial positions, radio and walls made one position.
+ *
+ *  Source  [TwoOrder] 2.3 (8)-(9), 3.2 (32), (34), (38)-(42).
+ *  Frames  n: level, as the inertial filter left it.  m: map. The angle between the two is a part
+ *          of what is estimated: each particle has an offset of its own.
+ *
+ *  Strides move the particles; walls, positions, ranges and scans weigh them. With the settings
+ *  `insole_particle_filter_two_order` it is the paper's second stage as printed. With the defaults
+ *  a particle's offset wanders, its scale is personal, and the whole stride is tested for walls.
+ *
+ *      static insole_particle_t particles[500];
+ *      static insole_particle_filter_t filter;
+ *      insole_cloud_t cloud = {particles, 500, NULL, 0};
+ *      insole_particle_filter_init(&filter, &insole_particle_filter_defaults, seed);
+ *      insole_particle_filter_start(&filter, &cloud, &start);
+ *      while (insole_particle_filter_work(&filter, &cloud, &building, 50)) {}
+ *      on each stride, or scan, or both:
+ *          insole_particle_filter_begin(&filter, &building, &news);
+ *          while (insole_particle_filter_work(&filter, &cloud, &building, 50)) {}
+ *          use(&filter.fix);
+ *
+ *  The work is done in slices: a stride worked in by many small ones ends in the same bits as by
+ * one large one. While work is left nothing new can begin.
+ *
+ *  When every particle has died the cloud is drawn anew about the last good fix, wider each time.
+ *  When scans fit better where they point than where the cloud is, a share of it is drawn there.
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_FUSE_PARTICLE_FILTER_H
+#define INSOLE_FUSE_PARTICLE_FILTER_H
+
+#include "insole/base/config.h"
+#include "insole/fuse/cloud_source.h"
+#include "insole/fuse/weighing.h"
+#include "insole/place/rss_field.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* clang-format off */
+#define INSOLE_PARTICLE_FILTER_KEYS(KEY)                                                          \
+    KEY(REAL, sigma_length_m, 0.03, 0.0, 10.0, "m", "sigma_s of (32), length of a stride")        \
+    KEY(REAL, turn_share, 0.0, 0.0, 10.0, "",                                                     \
+        "sigma_psi of (32), as a share of the turn from stride to stride")                        \
+    KEY(REAL, sigma_wander_rad, 0.021, 0.0, 3.0, "rad",                                           \
+        "1-sigma of the offset's change in a stride")                                             \
+    KEY(REAL, sigma_scale, 0.02, 0.0, 1.0, "", "1-sigma of the scale of strides; 0 = none")       \
+    KEY(REAL, scale_memory, 0.99, 0.0, 1.0, "",                                                   \
+        "share of a particle's scale that stays from stride to stride")                           \
+    KEY(CHOICE, walls, 2, 0, 2, "off|inside|crosses", "what a plan kills a particle for")         \
+    KEY(REAL, resample_share, 0.5, 0.0, 1.0, "",                                                  \
+        "resampled when the effective number is a smaller share of all; 0 = never")               \
+    KEY(REAL, redraw_share, 0.1, 0.0, 0.5, "",                                                    \
+        "share of the cloud drawn where scans point when they point elsewhere; 0 = none")         \
+    KEY(REAL, redraw_margin, 0.15, 0.0, 100.0, "",                                                \
+        "how much likelier scans must be elsewhere, in logarithms")                               \
+    KEY(REAL, redraw_offset_rad, 0.35, 0.0, 3.1, "rad", "1-sigma of the offset of those drawn")   \
+    KEY(REAL, recover_sigma_m, 0.5, 0.01, 100.0, "m",                                             \
+        "1-sigma added when all have died; twice as much each time")                              \
+    KEY(REAL, recover_offset_rad, 0.09, 0.0, 3.1, "rad", "the same for the offset")               \
+    KEY(REAL, wide_offset_rad, 0.6, 0.0, 3.1, "rad",                                              \
+        "with a larger 1-sigma of the offset the direction counts as unknown to the radio")
+/* clang-format on */
+
+typedef struct {
+    INSOLE_PARTICLE_FILTER_KEYS(INSOLE_CONFIG_MEMBER)
+    insole_rss_field_config_t field;
+} insole_particle_filter_config_t;
+
+extern const insole_particle_filter_config_t insole_particle_filter_defaults;
+
+/** The paper's second stage as printed: no offset, no scale, (40) at the end of a stride. */
+extern const insole_particle_filter_config_t insole_particle_filter_two_order;
+
+/** What is known at the start. */
+typedef struct {
+    insole_real_t x_m, y_m;
+    insole_real_t sigma_m;          /**< of each coordinate, >= 0 */
+    insole_real_t offset_rad;       /**< from directions in n to directions in m */
+    insole_real_t sigma_offset_rad; /**< >= 0; pi or more: not known */
+} insole_particle_start_t;
+
+typedef struct {
+    uint32_t strides;
+    uint32_t scans;
+    uint32_t resampled;
+    uint32_t redrawn;   /**< times that a share of the cloud was drawn where a scan pointed */
+    uint32_t recovered; /**< times that all had died */
+    uint32_t refused;   /**< calls answered with a negative status */
+} insole_particle_counts_t;
+
+typedef enum {
+    INSOLE_PARTICLES_IDLE = 0,
+    INSOLE_PARTICLES_DRAW,
+    INSOLE_PARTICLES_MOVE,
+    INSOLE_PARTICLES_FIELD,
+    INSOLE_PARTICLES_WEIGH,
+    INSOLE_PARTICLES_SUM,
+    INSOLE_PARTICLES_RESAMPLE,
+    INSOLE_PARTICLES_FINISH
+} insole_particle_phase_t;
+
+typedef struct {
+    insole_particle_filter_config_t config;
+    insole_particle_counts_t counts;
+    insole_cloud_fix_t fix; /**< the last one that was reached */
+    bool has_fix;
+
+    insole_rng_t rng;
+    uint32_t count;             /**< particles of the cloud that was started; 0: none */
+    uint32_t since_start;       /**< strides since */
+    insole_weighing_t weighing; /**< what is being worked in */
+
+    insole_particle_phase_t phase;
+    bool anywhere; /**< the plan is not asked: nothing walkable was found */
+    uint32_t next; /**< particle */
+    insole_cloud_sum_t sum;
+    insole_cloud_comb_t comb;
+    insole_cloud_source_t source; /**< of what is being drawn */
+    insole_cloud_source_t reach;  /**< where the cloud is now */
+    uint32_t redraw_every;        /**< every so many are drawn anew; 0: none */
+    uint32_t deaths;              /**< of the whole cloud, less the strides survived since */
+    insole_rss_field_t field;
+} insole_particle_filter_t;
+
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
+                                            const insole_particle_filter_config_t *config,
+                                            uint64_t seed);
+
+/** Begins anew: the cloud will be drawn by `work`. What was not yet worked in is dropped.
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for what is not finite, a negative sigma, a cloud of
+ * no particles or too many */
+insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
+                                             const insole_cloud_t *cloud,
+                                             const insole_particle_start_t *start);
+
+/** Takes news to be worked in. Readings of unknown access points are passed over.
+ *  @param building  NULL: nothing is known of it
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_STATE before the start and while work is left */
+insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
+                                             const insole_building_t *building,
+                                             const insole_evidence_t *news);
+
+/** Does at most `particles` particles' worth of work. Nothing is done to a cloud of another number
+ *  of particles than that of the start.
+ *  @param building  as in the call of begin
+ *  @return true while work is left */
+bool insole_particle_filter_work(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                                 const insole_building_t *building, uint32_t particles);
+
+/** Where the ancestors of the present cloud were some strides ago: the position then, by all that
+ *  is known now. The cloud must have kept its past.
+ *  @return INSOLE_ERR_STATE before so many strides, while work is left, or without a past so long
+ */
+insole_status_t insole_particle_filter_past(const insole_particle_filter_t *filter,
+                                            const insole_cloud_t *cloud, uint32_t strides_ago,
+                                            insole_spot_t *mean);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

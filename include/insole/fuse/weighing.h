@@ -1,0 +1,81 @@
+/** @file weighing.h  One particle's stride and weight, by all that was told of one moment.
+ *
+ *  Source  [TwoOrder] 2.3 (8), 3.2 (32), (34), (38)-(41).
+ *  Frames  n: level, of strides.  m: map.
+ *
+ *  A weighing is filled in by who knows; then each particle walks, and is weighed once the radio is
+ *  computed where particles need it.
+ *
+ *      insole_weighing_t weighing = {.walls = INSOLE_WALLS_CROSSES, .news = news};
+ *      insole_weighing_begin(&weighing);
+ *      for each particle i:
+ *          insole_weighing_move(&weighing, &field, &plan, &particle[i], &rng);
+ *      compute the field;
+ *      for each particle i:
+ *          insole_weighing_weigh(&weighing, &field, &particle[i], i);
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_FUSE_WEIGHING_H
+#define INSOLE_FUSE_WEIGHING_H
+
+#include "insole/fuse/evidence.h"
+#include "insole/fuse/particle_cloud.h"
+#include "insole/place/floor_plan.h"
+#include "insole/place/rss_field.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** How a plan kills. */
+typedef enum {
+    INSOLE_WALLS_OFF = 0,
+    INSOLE_WALLS_INSIDE = 1, /**< whose stride ends where nobody can be, (40) */
+    INSOLE_WALLS_CROSSES = 2 /**< whose stride meets a wall anywhere */
+} insole_walls_t;
+
+typedef struct {
+    insole_walls_t walls;
+    insole_evidence_t news;       /**< ways walked since are in m */
+    insole_cloud_stride_t stride; /**< the last one; walked when `news` tells of a stride */
+    insole_real_t common_log;     /**< taken off all weights, so that they stay near 0 */
+    insole_real_t heaviest_log;   /**< largest weight so far */
+    uint32_t heaviest;            /**< whose it is */
+} insole_weighing_t;
+
+/** No particle has been weighed. */
+void insole_weighing_begin(insole_weighing_t *weighing);
+
+/** Walks the stride, if there is one, and tells the field where the particle needs it, if there is
+ *  a scan. A particle that the plan kills is marked dead, the dead stay where they are.
+ *  @param plan  NULL: no walls */
+void insole_weighing_move(const insole_weighing_t *weighing, insole_rss_field_t *field,
+                          const insole_floor_plan_t *plan, insole_particle_t *particle,
+                          insole_rng_t *rng);
+
+/** Weighs a particle, unless it is dead. */
+void insole_weighing_weigh(insole_weighing_t *weighing, const insole_rss_field_t *field,
+                           insole_particle_t *particle, uint32_t number);
+
+/** Sees whether a particle is the heaviest. */
+static inline void insole_weighing_note(insole_weighing_t *weighing,
+                                        const insole_particle_t *particle, uint32_t number)
+{
+    if (particle->log_weight > weighing->heaviest_log) {
+        weighing->heaviest_log = particle->log_weight;
+        weighing->heaviest = number;
+    }
+}
+
+/** False when all particles noted were dead. */
+static inline bool insole_weighing_has_survivors(const insole_weighing_t *weighing)
+{
+    return weighing->heaviest_log > INSOLE_PARTICLE_DEAD;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

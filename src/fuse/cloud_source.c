@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/fuse/cloud_source.h"
+
+#include <stddef.h>
+
+#define ZERO INSOLE_R(0.0)
+#define HALF INSOLE_R(0.5)
+#define ONE  INSOLE_R(1.0)
+
+enum { ATTEMPTS = 8 };
+
+insole_cloud_source_t insole_cloud_source(const insole_cloud_fix_t *fix, insole_real_t sigma_scale)
+{
+    insole_cloud_source_t source = {.x_m = fix->x_m,
+                                    .y_m = fix->y_m,
+                                    .var_x_m2 = fix->var_x_m2,
+                                    .cov_xy_m2 = fix->cov_xy_m2,
+                                    .var_y_m2 = fix->var_y_m2,
+                                    .offset_rad = fix->offset_rad,
+                                    .sigma_offset_rad = insole_sqrt(fix->var_offset_rad2),
+                                    .scale = fix->scale,
+                                    .sigma_scale = sigma_scale};
+    return source;
+}
+
+insole_turn_t insole_cloud_source_turn(const insole_cloud_source_t *source)
+{
+    insole_real_t length =
+        source->scale * insole_exp(-HALF * insole_square(source->sigma_offset_rad));
+    insole_turn_t turn = insole_turn(source->offset_rad);
+    turn.cos *= length;
+    turn.sin *= length;
+    return turn;
+}
+
+void insole_cloud_source_walk(insole_cloud_source_t *source, const insole_cloud_stride_t *stride)
+{
+    insole_turn_t direction = insole_turn(stride->heading_rad);
+    insole_spot_t way = {stride->length_m * direction.cos, stride->length_m * direction.sin};
+    way = insole_turn_way(insole_cloud_source_turn(source), way);
+    insole_real_t var_rad2 = insole_square(source->sigma_offset_rad) +
+                             insole_square(stride->sigma_heading_rad) +
+                             insole_square(stride->sigma_wander_rad);
+    insole_real_t var_m2 = insole_square(stride->sigma_length_m) +
+                           insole_square(stride->length_m) * insole_min(var_rad2, ONE);
+    source->x_m += way.x_m;
+    source->y_m += way.y_m;
+    source->var_x_m2 += var_m2;
+    source->var_y_m2 += var_m2;
+}
+
+void insole_cloud_source_widen(insole_cloud_source_t *source, insole_real_t sigma_m,
+                               insole_real_t sigma_rad)
+{
+    source->var_x_m2 += insole_square(sigma_m);
+    source->var_y_m2 += insole_square(sigma_m);
+    source->sigma_offset_rad =
+        insole_sqrt(insole_square(source->sigma_offset_rad) + insole_square(sigma_rad));
+}
+
+static insole_real_t mixed(insole_real_t own, insole_real_t other, insole_real_t share)
+{
+    return own + share * (other - own);
+}
+
+void insole_cloud_source_mix(insole_cloud_source_t *source, const insole_cloud_source_t *other,
+                             insole_real_t share)
+{
+    insole_real_t x = other->x_m - source->x_m, y = other->y_m - source->y_m;
+    insole_real_t between = share * (ONE - share);
+    source->x_m += share * x;
+    source->y_m += share * y;
+    source->var_x_m2 = mixed(source->var_x_m2, other->var_x_m2, share) + between * x * x;
+    source->cov_xy_m2 = mixed(source->cov_xy_m2, other->cov_xy_m2, share) + between * x * y;
+    source->var_y_m2 = mixed(source->var_y_m2, other->var_y_m2, share) + between * y * y;
+}
+
+/* One normal point with the covariance of the source, by its triangular root. */
+static void draw_place(const insole_cloud_source_t *source, insole_particle_t *particle,
+                       insole_rng_t *rng)
+{
+    insole_real_t first, second;
+    insole_rng_normals(rng, &first, &second);
+    insole_real_t root_x = insole_sqrt(source->var_x_m2);
+    insole_real_t root_xy = root_x > ZERO ? source->cov_xy_m2 / root_x : ZERO;
+    insole_real_t root_y = insole_sqrt(insole_max(ZERO, source->var_y_m2 - root_xy * root_xy));
+    particle->x_m = source->x_m + root_x * first;
+    particle->y_m = source->y_m + root_xy * first + root_y * second;
+}
+
+static void draw_walk(const insole_cloud_source_t *source, insole_particle_t *particle,
+                      insole_rng_t *rng)
+{
+    insole_real_t first, second;
+    insole_rng_normals(rng, &first, &second);
+    particle->scale = source->scale + source->sigma_scale * second;
+    particle->offset_rad = insole_wrap_pi(source->offset_rad + source->sigma_offset_rad * first);
+    if (source->sigma_offset_rad >= INSOLE_PI) {
+        particle->offset_rad = INSOLE_PI * (ONE - INSOLE_R(2.0) * insole_rng_uniform(rng));
+    }
+}
+
+void insole_cloud_source_draw(const insole_cloud_source_t *source, insole_particle_t *particle,
+                              const insole_floor_plan_t *plan, insole_rng_t *rng)
+{
+    draw_walk(source, particle, rng);
+    particle->log_weight = INSOLE_PARTICLE_DEAD;
+    for (int i = 0; i < ATTEMPTS && !insole_particle_lives(particle); i++) {
+        draw_place(source, particle, rng);
+        if (!plan || insole_floor_plan_inside(plan, particle->x_m, particle->y_m)) {
+            particle->log_weight = ZERO;
+        }
+    }
+}

@@ -1,0 +1,396 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/fuse/particle_filter.h"
+
+#include <stddef.h>
+
+#define ZERO INSOLE_R(0.0)
+#define HALF INSOLE_R(0.5)
+#define ONE  INSOLE_R(1.0)
+
+#define SIGMA_MAX_M INSOLE_R(1e4)
+
+/* A pair of a node and an access point costs about so many particles. */
+#define PARTICLES_PER_PAIR 3u
+
+/* After so many deaths of all the cloud is as wide as it gets. */
+#define DEATHS_MAX 6u
+
+const insole_particle_filter_config_t insole_particle_filter_defaults = {
+    INSOLE_PARTICLE_FILTER_KEYS(INSOLE_CONFIG_DEFAULT){
+        INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_DEFAULT)}};
+
+const insole_particle_filter_config_t insole_particle_filter_two_order = {
+    .sigma_length_m = INSOLE_R(0.1),
+    .turn_share = INSOLE_R(0.2),
+    .scale_memory = ONE,
+    .walls = INSOLE_WALLS_INSIDE,
+    .resample_share = HALF,
+    .recover_sigma_m = HALF,
+    .field = {INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_DEFAULT)}};
+
+static insole_status_t refuse(insole_particle_filter_t *filter, insole_status_t status)
+{
+    filter->counts.refused++;
+    return status;
+}
+
+insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
+                                            const insole_particle_filter_config_t *config,
+                                            uint64_t seed)
+{
+    if (!filter || !config) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!(true INSOLE_PARTICLE_FILTER_KEYS(INSOLE_CONFIG_IN_RANGE)) ||
+        insole_rss_field_check(&config->field) != INSOLE_OK) {
+        return INSOLE_ERR_VALUE;
+    }
+    *filter = (insole_particle_filter_t){.config = *config};
+    filter->weighing.walls = (insole_walls_t)config->walls;
+    insole_rng_seed(&filter->rng, seed);
+    return insole_rss_field_init(&filter->field, &config->field);
+}
+
+/* ---- what is told ---- */
+
+static bool is_start(const insole_particle_start_t *start)
+{
+    return insole_is_finite(start->x_m) && insole_is_finite(start->y_m) &&
+           insole_is_finite(start->offset_rad) && start->sigma_m >= ZERO &&
+           start->sigma_m <= SIGMA_MAX_M && start->sigma_offset_rad >= ZERO;
+}
+
+static void begin_drawing(insole_particle_filter_t *filter, const insole_cloud_source_t *source)
+{
+    filter->source = *source;
+    filter->anywhere = false;
+    filter->next = 0;
+    filter->phase = INSOLE_PARTICLES_DRAW;
+    insole_weighing_begin(&filter->weighing);
+}
+
+insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
+                                             const insole_cloud_t *cloud,
+                                             const insole_particle_start_t *start)
+{
+    if (!filter) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_status_t status = insole_cloud_check(cloud);
+    if (status != INSOLE_OK || !start) {
+        return refuse(filter, status != INSOLE_OK ? status : INSOLE_ERR_NULL);
+    }
+    if (!is_start(start)) {
+        return refuse(filter, INSOLE_ERR_VALUE);
+    }
+    insole_real_t var_m2 = start->sigma_m * start->sigma_m;
+    insole_cloud_source_t source = {.x_m = start->x_m,
+                                    .y_m = start->y_m,
+                                    .var_x_m2 = var_m2,
+                                    .var_y_m2 = var_m2,
+                                    .offset_rad = insole_wrap_pi(start->offset_rad),
+                                    .sigma_offset_rad = start->sigma_offset_rad,
+                                    .scale = ONE,
+                                    .sigma_scale = filter->config.sigma_scale};
+    insole_evidence_clear(&filter->weighing.news);
+    filter->count = cloud->count;
+    filter->has_fix = false;
+    filter->since_start = 0;
+    filter->deaths = 0;
+    filter->redraw_every = 0;
+    begin_drawing(filter, &source);
+    return INSOLE_OK;
+}
+
+static void take_stride(insole_particle_filter_t *filter, const insole_evidence_t *news)
+{
+    const insole_particle_filter_config_t *config = &filter->config;
+    insole_real_t memory = config->scale_memory;
+    insole_cloud_stride_t stride = {
+        .length_m = news->length_m,
+        .sigma_length_m = config->sigma_length_m,
+        .heading_rad = news->heading_rad,
+        .sigma_heading_rad = config->turn_share * insole_abs(news->turn_rad),
+        .sigma_wander_rad = config->sigma_wander_rad,
+        .scale_memory = memory,
+        .sigma_scale = config->sigma_scale * insole_sqrt(ONE - memory * memory)};
+    filter->weighing.stride = stride;
+    filter->since_start++;
+    filter->counts.strides++;
+    insole_cloud_source_walk(&filter->reach, &stride);
+}
+
+static bool lay_field(insole_particle_filter_t *filter)
+{
+    const insole_cloud_source_t *reach = &filter->reach;
+    const insole_weighing_t *weighing = &filter->weighing;
+    insole_rss_around_t around = {
+        .x_m = reach->x_m - weighing->news.since.x_m,
+        .y_m = reach->y_m - weighing->news.since.y_m,
+        .sigma_m = insole_sqrt(insole_max(reach->var_x_m2, reach->var_y_m2)),
+        .heading_rad = weighing->stride.heading_rad + reach->offset_rad,
+        .has_heading =
+            filter->since_start > 0 && reach->sigma_offset_rad <= filter->config.wide_offset_rad};
+    return insole_rss_field_place(&filter->field, &around) == INSOLE_OK;
+}
+
+insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
+                                             const insole_building_t *building,
+                                             const insole_evidence_t *news)
+{
+    if (!filter) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_status_t status = insole_evidence_check(news);
+    if (status != INSOLE_OK) {
+        return refuse(filter, status);
+    }
+    if (filter->count == 0 || filter->phase != INSOLE_PARTICLES_IDLE) {
+        return refuse(filter, INSOLE_ERR_STATE);
+    }
+    insole_evidence_t *taken = &filter->weighing.news;
+    *taken = *news;
+    taken->readings = NULL;
+    insole_evidence_turn(taken, insole_cloud_source_turn(&filter->reach));
+    if (news->has_stride) {
+        take_stride(filter, news);
+    }
+    taken->has_scan = news->has_scan &&
+                      insole_rss_field_hear(&filter->field, building, news->readings,
+                                            news->reading_count) == INSOLE_OK &&
+                      lay_field(filter);
+    filter->next = 0;
+    filter->phase = INSOLE_PARTICLES_MOVE;
+    insole_weighing_begin(&filter->weighing);
+    return INSOLE_OK;
+}
+
+/* ---- weighing ---- */
+
+static void begin_sum(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+{
+    filter->weighing.common_log = filter->weighing.heaviest_log;
+    insole_cloud_sum_begin(&filter->sum, cloud, filter->weighing.heaviest);
+    filter->phase = INSOLE_PARTICLES_SUM;
+}
+
+/* Draws about the same place, wider each time in a row. */
+static void draw_wider(insole_particle_filter_t *filter, insole_cloud_source_t source)
+{
+    insole_real_t wider = (insole_real_t)(1u << filter->deaths);
+    insole_cloud_source_widen(&source, wider * filter->config.recover_sigma_m,
+                              wider * filter->config.recover_offset_rad);
+    filter->deaths += filter->deaths < DEATHS_MAX ? 1u : 0u;
+    begin_drawing(filter, &source);
+}
+
+static void end_weighing(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+{
+    if (!insole_weighing_has_survivors(&filter->weighing)) {
+        filter->counts.recovered++;
+        draw_wider(filter, filter->reach);
+        return;
+    }
+    if (filter->weighing.news.has_scan) {
+        insole_rss_field_learn(&filter->field);
+        filter->counts.scans++;
+    }
+    if (filter->weighing.news.has_stride && filter->deaths > 0) {
+        filter->deaths--;
+    }
+    begin_sum(filter, cloud);
+}
+
+/* ---- settling ---- */
+
+/* The scans point elsewhere: a share of the cloud will be drawn there, and the cloud reaches so far
+ * as to hold both. */
+static void point_elsewhere(insole_particle_filter_t *filter)
+{
+    const insole_particle_filter_config_t *config = &filter->config;
+    const insole_anchor_fix_t *there = &filter->field.elsewhere;
+    insole_cloud_source_t source = filter->reach;
+    source.x_m = there->x_m + filter->weighing.news.since.x_m;
+    source.y_m = there->y_m + filter->weighing.news.since.y_m;
+    source.var_x_m2 = there->P.xx;
+    source.cov_xy_m2 = there->P.xy;
+    source.var_y_m2 = there->P.yy;
+    insole_cloud_source_widen(&source, ZERO, config->redraw_offset_rad);
+    insole_cloud_source_mix(&filter->reach, &source, config->redraw_share);
+    filter->source = source;
+    filter->redraw_every = (uint32_t)(ONE / config->redraw_share + HALF);
+    filter->counts.redrawn++;
+}
+
+static void begin_finish(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+{
+    filter->next = filter->redraw_every > 0 || cloud->past_strides > 0 ? 0 : filter->count;
+    filter->phase = INSOLE_PARTICLES_FINISH;
+}
+
+static void end_sum(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+{
+    const insole_particle_filter_config_t *config = &filter->config;
+    insole_cloud_fix(&filter->sum, &filter->fix);
+    filter->has_fix = true;
+    filter->reach = insole_cloud_source(&filter->fix, config->sigma_scale);
+    filter->redraw_every = 0;
+    if (filter->weighing.news.has_scan && config->redraw_share > ZERO &&
+        filter->field.elsewhere_likelier > config->redraw_margin) {
+        point_elsewhere(filter);
+    }
+    if (filter->redraw_every > 0 ||
+        filter->fix.effective < config->resample_share * (insole_real_t)filter->count) {
+        insole_cloud_resample_begin(&filter->comb, &filter->sum, filter->count,
+                                    insole_rng_uniform(&filter->rng));
+        filter->counts.resampled++;
+        filter->phase = INSOLE_PARTICLES_RESAMPLE;
+    } else {
+        begin_finish(filter, cloud);
+    }
+}
+
+static void finish_one(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                       const insole_floor_plan_t *plan)
+{
+    insole_particle_t *particle = &cloud->particles[filter->next];
+    if (filter->redraw_every > 0 && filter->next % filter->redraw_every == 0) {
+        insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
+        particle->log_weight =
+            insole_particle_lives(particle) ? filter->weighing.common_log : INSOLE_PARTICLE_DEAD;
+    }
+    insole_cloud_remember(cloud, filter->next, filter->since_start);
+}
+
+/* ---- the work ---- */
+
+static void work_one(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                     const insole_floor_plan_t *plan)
+{
+    insole_weighing_t *weighing = &filter->weighing;
+    insole_particle_t *particle = &cloud->particles[filter->next];
+    switch (filter->phase) {
+    case INSOLE_PARTICLES_DRAW:
+        insole_cloud_source_draw(&filter->source, particle, filter->anywhere ? NULL : plan,
+                                 &filter->rng);
+        insole_weighing_note(weighing, particle, filter->next);
+        break;
+    case INSOLE_PARTICLES_MOVE:
+        insole_weighing_move(weighing, &filter->field, plan, particle, &filter->rng);
+        if (weighing->news.has_scan) {
+            break; /* weighed when the field is computed */
+        }          /* fall through */
+    case INSOLE_PARTICLES_WEIGH:
+        insole_weighing_weigh(weighing, &filter->field, particle, filter->next);
+        break;
+    default:
+        finish_one(filter, cloud, plan);
+    }
+}
+
+/* Where nothing walkable is even far around, going on without the plan is better than an end. */
+static void end_drawing(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+{
+    if (insole_weighing_has_survivors(&filter->weighing)) {
+        begin_sum(filter, cloud);
+    } else if (filter->deaths < DEATHS_MAX) {
+        draw_wider(filter, filter->source);
+    } else {
+        filter->anywhere = true;
+        filter->next = 0;
+    }
+}
+
+static void end_phase(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+{
+    switch (filter->phase) {
+    case INSOLE_PARTICLES_DRAW:
+        end_drawing(filter, cloud);
+        break;
+    case INSOLE_PARTICLES_MOVE:
+        if (filter->weighing.news.has_scan) {
+            filter->phase = INSOLE_PARTICLES_FIELD;
+            break;
+        }
+        end_weighing(filter, cloud);
+        break;
+    case INSOLE_PARTICLES_WEIGH:
+        end_weighing(filter, cloud);
+        break;
+    default:
+        insole_evidence_clear(&filter->weighing.news);
+        filter->phase = INSOLE_PARTICLES_IDLE;
+    }
+}
+
+static void work_particles(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                           const insole_floor_plan_t *plan, uint32_t *budget)
+{
+    for (; *budget > 0 && filter->next < cloud->count; filter->next++, --*budget) {
+        work_one(filter, cloud, plan);
+    }
+    if (filter->next == cloud->count) {
+        end_phase(filter, cloud);
+    }
+}
+
+static void work_field(insole_particle_filter_t *filter, const insole_building_t *building,
+                       uint32_t *budget)
+{
+    uint32_t pairs = (*budget + PARTICLES_PER_PAIR - 1u) / PARTICLES_PER_PAIR, left = pairs;
+    if (!insole_rss_field_work(&filter->field, building, &left)) {
+        filter->next = 0;
+        filter->phase = INSOLE_PARTICLES_WEIGH;
+    }
+    uint32_t used = (pairs - left) * PARTICLES_PER_PAIR;
+    *budget -= used < *budget ? used : *budget;
+}
+
+static void work_phase(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                       const insole_building_t *building, uint32_t *budget)
+{
+    switch (filter->phase) {
+    case INSOLE_PARTICLES_FIELD:
+        work_field(filter, building, budget);
+        break;
+    case INSOLE_PARTICLES_SUM:
+        if (!insole_cloud_sum_work(&filter->sum, cloud, budget)) {
+            end_sum(filter, cloud);
+        }
+        break;
+    case INSOLE_PARTICLES_RESAMPLE:
+        if (!insole_cloud_resample_work(&filter->comb, cloud, budget)) {
+            filter->weighing.common_log = cloud->particles[0].log_weight;
+            begin_finish(filter, cloud);
+        }
+        break;
+    default:
+        work_particles(filter, cloud, building ? building->plan : NULL, budget);
+    }
+}
+
+bool insole_particle_filter_work(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                                 const insole_building_t *building, uint32_t particles)
+{
+    if (!filter || insole_cloud_check(cloud) != INSOLE_OK || cloud->count != filter->count) {
+        return false;
+    }
+    while (particles > 0 && filter->phase != INSOLE_PARTICLES_IDLE) {
+        work_phase(filter, cloud, building, &particles);
+    }
+    return filter->phase != INSOLE_PARTICLES_IDLE;
+}
+
+insole_status_t insole_particle_filter_past(const insole_particle_filter_t *filter,
+                                            const insole_cloud_t *cloud, uint32_t strides_ago,
+                                            insole_spot_t *mean)
+{
+    if (!filter || !cloud) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!filter->has_fix || filter->phase != INSOLE_PARTICLES_IDLE ||
+        strides_ago > filter->since_start || strides_ago >= cloud->past_strides) {
+        return INSOLE_ERR_STATE;
+    }
+    return insole_cloud_recall(cloud, filter->since_start - strides_ago, mean);
+}
