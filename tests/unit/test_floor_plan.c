@@ -619,7 +619,7 @@ END_TEST
 
 /* One corridor, 2 m x 4 m in two cells, as a generated file would hold it. */
 static const insole_wall_t flash_walls[] = {
-    {1, 1, 3, 1, 6}, {3, 1, 3, 5, 6}, {3, 5, 1, 5, 6}, {1, 5, 1, 1, 6}, {1, 3.25f, 2, 3.25f, 2}};
+    {1, 1, 3, 1, 6}, {3, 1, 3, 5, 6}, {3, 5, 1, 5, 6}, {1, 5, 1, 1, 6}, {1, 3.25, 2, 3.25, 2}};
 static const insole_floor_plan_cell_t flash_cells[] = {{0, 1, 0}, {3, 1, 0}, {7, 0, 0}};
 static const uint16_t flash_entries[] = {0, 1, 3, 1, 2, 3, 4};
 static const insole_floor_plan_t flash_plan = {
@@ -643,8 +643,8 @@ END_TEST
 
 START_TEST(bad_input)
 {
-    static const insole_real_t bad[] = {NAN,           INFINITY,       -INFINITY,
-                                        INSOLE_R(1e7), -INSOLE_R(2e6), INSOLE_REAL_MAX};
+    static const insole_real_t bad[] = {(double)NAN,   (double)INFINITY, -(double)INFINITY,
+                                        INSOLE_R(1e7), -INSOLE_R(2e6),   INSOLE_REAL_MAX};
     insole_walls_between_t between = {7u, 3}, between_before = between;
     insole_real_t distance = 5;
     draw_room();

@@ -327,8 +327,9 @@ END_TEST
 START_TEST(refuses_bad_drawings)
 {
     static const insole_real_t good_xy[] = {0, 0, 9, 0, 9, 9, 0, 9};
-    static const insole_real_t bad_xy[][6] = {
-        {0, 0, NAN, 0, 1, 1}, {0, INFINITY, 1, 0, 1, 1}, {0, 0, 1, 0, 1, INSOLE_R(1.1e5)}};
+    static const insole_real_t bad_xy[][6] = {{0, 0, (double)NAN, 0, 1, 1},
+                                              {0, (double)INFINITY, 1, 0, 1, 1},
+                                              {0, 0, 1, 0, 1, INSOLE_R(1.1e5)}};
     static const insole_real_t one_spot[] = {4, 4, 4, 4, 4, 4};
     const struct {
         insole_floor_plan_line_t line;
@@ -341,8 +342,8 @@ START_TEST(refuses_bad_drawings)
         {{INSOLE_LINE_WALL, good_xy, 0, 1}, INSOLE_ERR_VALUE},
         {{(insole_line_kind_t)3, good_xy, 4, 1}, INSOLE_ERR_VALUE},
         {{INSOLE_LINE_WALL, good_xy, 4, -1}, INSOLE_ERR_VALUE},
-        {{INSOLE_LINE_WALL, good_xy, 4, NAN}, INSOLE_ERR_VALUE},
-        {{INSOLE_LINE_WALL, good_xy, 4, INFINITY}, INSOLE_ERR_VALUE},
+        {{INSOLE_LINE_WALL, good_xy, 4, (double)NAN}, INSOLE_ERR_VALUE},
+        {{INSOLE_LINE_WALL, good_xy, 4, (double)INFINITY}, INSOLE_ERR_VALUE},
         {{INSOLE_LINE_WALL, bad_xy[0], 3, 1}, INSOLE_ERR_VALUE},
         {{INSOLE_LINE_WALL, bad_xy[1], 3, 1}, INSOLE_ERR_VALUE},
         {{INSOLE_LINE_WALL, bad_xy[2], 3, 1}, INSOLE_ERR_VALUE},

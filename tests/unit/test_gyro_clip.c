@@ -156,8 +156,9 @@ START_TEST(bad_settings_are_refused)
     insole_gyro_clip_t clip;
     memset(&clip, 0x5a, sizeof clip);
     ck_assert_int_eq(insole_gyro_clip_init(NULL, 0, 1), INSOLE_ERR_NULL);
-    static const insole_real_t BAD[][2] = {{-1, 1},  {101, 1}, {NAN, 1},     {INFINITY, 1},
-                                           {5, NAN}, {5, 0},   {5, INFINITY}};
+    static const insole_real_t BAD[][2] = {
+        {-1, 1},          {101, 1}, {(double)NAN, 1},     {(double)INFINITY, 1},
+        {5, (double)NAN}, {5, 0},   {5, (double)INFINITY}};
     for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++) {
         ASSERT_UNCHANGED(clip, insole_gyro_clip_init(&clip, BAD[i][0], BAD[i][1]),
                          INSOLE_ERR_VALUE);
@@ -175,14 +176,16 @@ START_TEST(bad_samples_are_refused)
     insole_vec3_t one = insole_vec3(1, 1, 1);
     ck_assert_int_eq(insole_gyro_clip_push(NULL, one, 5000, &axes), INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, one, 5000, NULL), INSOLE_ERR_NULL);
-    const insole_vec3_t bad[] = {insole_vec3(NAN, 1, 1), insole_vec3(1, INFINITY, 1),
-                                 insole_vec3(1, 1, -INFINITY)};
+    const insole_vec3_t bad[] = {insole_vec3((double)NAN, 1, 1),
+                                 insole_vec3(1, (double)INFINITY, 1),
+                                 insole_vec3(1, 1, -(double)INFINITY)};
     for (int i = 0; i < 3; i++) {
         ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, bad[i], 5000, &axes), INSOLE_ERR_VALUE);
     }
     ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, one, -1, &axes), INSOLE_ERR_VALUE);
-    ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, one, NAN, &axes), INSOLE_ERR_VALUE);
-    ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, one, INFINITY, &axes), INSOLE_ERR_VALUE);
+    ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, one, (double)NAN, &axes), INSOLE_ERR_VALUE);
+    ASSERT_UNCHANGED(clip, insole_gyro_clip_push(&clip, one, (double)INFINITY, &axes),
+                     INSOLE_ERR_VALUE);
     ck_assert_uint_eq(axes, 0x77u);
 }
 END_TEST

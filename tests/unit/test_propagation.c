@@ -155,7 +155,9 @@ START_TEST(nearest_of_a_scan)
         {{{0, -46, 0}}, 1, 0},                           /* at the threshold is near */
         {{{0, -47, 0}, {2, -61, 0}}, 2, -1},
         {{{3, -20, 0}, {900, -20, 0}, {1, -44, 0}}, 3, 2}, /* unknown ones are passed over */
-        {{{0, NAN, 0}, {1, INFINITY, 0}, {2, -INFINITY, 0}, {1, -44, 0}}, 4, 3},
+        {{{0, (double)NAN, 0}, {1, (double)INFINITY, 0}, {2, -(double)INFINITY, 0}, {1, -44, 0}},
+         4,
+         3},
         {{{1, -44, 0}, {0, -44, 0}}, 2, 0}, /* of equals the first */
         {{{0, 0, 0}}, 0, -1},
     };
@@ -290,7 +292,7 @@ START_TEST(settings_out_of_range)
     } while (0);
     INSOLE_PROPAGATION_KEYS(CHECK_KEY)
     insole_propagation_config_t config = *defaults;
-    config.power = NAN;
+    config.power = (double)NAN;
     ck_assert_int_eq(insole_propagation_check(&config), INSOLE_ERR_VALUE);
 }
 END_TEST
@@ -320,7 +322,7 @@ END_TEST
 
 START_TEST(values_without_sense)
 {
-    static const insole_real_t bad[] = {NAN, INFINITY, -INFINITY};
+    static const insole_real_t bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     insole_ap_t ap = ap_at(0, 0, 0, -38, 2), before = ap;
     insole_expected_rss_t expected = {3, 4};
     insole_rss_range_t range = {5, 6};

@@ -221,9 +221,10 @@ START_TEST(gates_leave_out)
     place_random(4);
     measure(7.0, 9.0, 1.0, 0.3);
     ck_assert_int_eq(solve_ranges(NULL, &clean), INSOLE_OK);
-    const insole_range_t bad[] = {{0, 4, NAN, 0},     {0, 5, INFINITY, 0},  {0, 6, -1, 0},
-                                  {0, 7, 101, 0},     {0, 0, 5, 11},        {0, 1, 5, INFINITY},
-                                  {0, APS_MAX, 5, 0}, {0, UINT32_MAX, 5, 0}};
+    const insole_range_t bad[] = {{0, 4, (double)NAN, 0}, {0, 5, (double)INFINITY, 0},
+                                  {0, 6, -1, 0},          {0, 7, 101, 0},
+                                  {0, 0, 5, 11},          {0, 1, 5, (double)INFINITY},
+                                  {0, APS_MAX, 5, 0},     {0, UINT32_MAX, 5, 0}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         insole_range_t mixed[5];
         memcpy(mixed, ranges, sizeof(insole_range_t) * 4);
@@ -236,7 +237,7 @@ START_TEST(gates_leave_out)
         ck_assert_int_eq(insole_range_fix_solve(&config, aps, APS_MAX, &bad[i], 1, NULL, &gated),
                          INSOLE_ERR_STATE);
     }
-    ranges[2].sigma_m = NAN; /* as if not told */
+    ranges[2].sigma_m = (double)NAN; /* as if not told */
     ck_assert_int_eq(solve_ranges(NULL, &gated), INSOLE_OK);
     ASSERT_NEAR(miss(&gated, (double)clean.x_m, (double)clean.y_m), 0.0, 0.0, "m");
 }
@@ -505,7 +506,7 @@ START_TEST(settings_out_of_range)
     } while (0);
     INSOLE_RANGE_FIX_KEYS(CHECK_KEY)
     set_defaults();
-    config.sigma_m = NAN;
+    config.sigma_m = (double)NAN;
     ck_assert_int_eq(insole_range_fix_check(&config), INSOLE_ERR_VALUE);
 }
 END_TEST
@@ -527,7 +528,7 @@ END_TEST
 /* A refusal leaves the fix as it was. */
 START_TEST(values_without_sense)
 {
-    static const insole_real_t bad[] = {NAN, INFINITY, -INFINITY};
+    static const insole_real_t bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     insole_anchor_fix_t fix, untouched;
     memset(&fix, 0x5a, sizeof fix);
     untouched = fix;
@@ -542,20 +543,20 @@ START_TEST(values_without_sense)
         ck_assert_int_eq(solve_ranges(NULL, &fix), INSOLE_ERR_VALUE);
     }
     aps[1] = good;
-    aps[1].p0_dbm = NAN; /* of no use here */
+    aps[1].p0_dbm = (double)NAN; /* of no use here */
     insole_anchor_fix_t before[4];
     ck_assert_int_eq(solve_ranges(NULL, &before[0]), INSOLE_OK);
     before[1] = before[2] = before[3] = before[0];
-    before[0].x_m = NAN;
-    before[1].common = INFINITY;
+    before[0].x_m = (double)NAN;
+    before[1].common = (double)INFINITY;
     before[2].P.xx = -1;
-    before[3].P.xy = NAN;
+    before[3].P.xy = (double)NAN;
     for (int i = 0; i < 4; i++) {
         ck_assert_int_eq(solve_ranges(&before[i], &fix), INSOLE_ERR_VALUE);
     }
     ck_assert_int_eq(insole_range_fix_age(&config, &fix, -1), INSOLE_ERR_VALUE);
-    ck_assert_int_eq(insole_range_fix_age(&config, &fix, NAN), INSOLE_ERR_VALUE);
-    ck_assert_int_eq(insole_range_fix_age(&config, &fix, INFINITY), INSOLE_ERR_VALUE);
+    ck_assert_int_eq(insole_range_fix_age(&config, &fix, (double)NAN), INSOLE_ERR_VALUE);
+    ck_assert_int_eq(insole_range_fix_age(&config, &fix, (double)INFINITY), INSOLE_ERR_VALUE);
     count = 0;
     ck_assert_int_eq(solve_ranges(NULL, &fix), INSOLE_ERR_STATE);
     ck_assert_mem_eq(&fix, &untouched, sizeof fix);

@@ -112,9 +112,9 @@ START_TEST(recall_refuses_what_is_no_covariance)
 {
     const insole_sym3_t bad[] = {insole_sym3_diagonal(-1, 1, 1),
                                  insole_sym3_diagonal(1, 1, 0),
-                                 insole_sym3_diagonal(1, NAN, 1),
+                                 insole_sym3_diagonal(1, (double)NAN, 1),
                                  {1, 2, 0, 1, 0, 1}};
-    const insole_vec3_t nowhere = insole_vec3(INFINITY, 0, 0);
+    const insole_vec3_t nowhere = insole_vec3((double)INFINITY, 0, 0);
     insole_known_t known = known_at(insole_vec3(1, 2, 3), 2.0), before = known;
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         ck_assert(!insole_robust_fit_recall(&known, insole_vec3_zero(), bad[i]));
@@ -141,9 +141,9 @@ START_TEST(steps_are_bounded_and_finite)
     ck_assert(insole_robust_fit_step(&fit, &step, &P)); /* back again: half as far */
     ASSERT_NEAR(step.x, 1.5, 1e-4, "m");
     ASSERT_NEAR(step.y, 2.0, 1e-4, "m");
-    fit.pull.x = NAN;
+    fit.pull.x = (double)NAN;
     ck_assert(!insole_robust_fit_step(&fit, &step, &P));
-    fit.information.xx = NAN;
+    fit.information.xx = (double)NAN;
     ck_assert(!insole_robust_fit_step(&fit, &step, &P));
 }
 END_TEST

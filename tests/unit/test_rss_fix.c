@@ -134,7 +134,8 @@ START_TEST(centroid_by_hand)
     place_ap(0, 0.0, 0.0);
     place_ap(1, 11.0, 0.0);
     place_ap(2, 0.0, 5.0);
-    const insole_rss_t scan[] = {{0, -40, 0}, {1, -60, 0}, {2, -96, 0}, {9, -20, 0}, {1, NAN, 0}};
+    const insole_rss_t scan[] = {
+        {0, -40, 0}, {1, -60, 0}, {2, -96, 0}, {9, -20, 0}, {1, (double)NAN, 0}};
     ck_assert_int_eq(insole_rss_fix_centroid(&config, &propagation, aps, 3, scan, 5, &fix),
                      INSOLE_OK);
     ck_assert_uint_eq(fix.used, 2u);
@@ -189,8 +190,9 @@ START_TEST(gates_leave_out)
     place_random(4);
     listen(7.0, 9.0, 1.0, 2.0);
     ck_assert_int_eq(solve_rss(&clean), INSOLE_OK);
-    const insole_rss_t bad[] = {{4, NAN, 0}, {5, INFINITY, 0},  {6, -INFINITY, 0},
-                                {7, -96, 0}, {APS_MAX, -50, 0}, {UINT32_MAX, -50, 0}};
+    const insole_rss_t bad[] = {{4, (double)NAN, 0},       {5, (double)INFINITY, 0},
+                                {6, -(double)INFINITY, 0}, {7, -96, 0},
+                                {APS_MAX, -50, 0},         {UINT32_MAX, -50, 0}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         insole_rss_t mixed[5];
         memcpy(mixed, readings, sizeof(insole_rss_t) * 4);
@@ -350,7 +352,7 @@ START_TEST(settings_out_of_range)
     } while (0);
     INSOLE_RSS_FIX_KEYS(CHECK_KEY)
     set_defaults();
-    config.sigma_db = NAN;
+    config.sigma_db = (double)NAN;
     ck_assert_int_eq(insole_rss_fix_check(&config), INSOLE_ERR_VALUE);
 }
 END_TEST
@@ -377,7 +379,7 @@ END_TEST
 /* A refusal leaves the fix as it was. */
 START_TEST(values_without_sense)
 {
-    static const insole_real_t bad[] = {NAN, INFINITY, -INFINITY};
+    static const insole_real_t bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     insole_anchor_fix_t fix, untouched;
     memset(&fix, 0x5a, sizeof fix);
     untouched = fix;

@@ -267,10 +267,10 @@ START_TEST(bad_samples_are_refused)
     imu.t_us = 0u;
     ASSERT_REFUSED(*rest, rest->refused, insole_still_bias_push(rest, &imu), INSOLE_ERR_TIME);
     imu = good;
-    imu.accel_mps2.y = NAN;
+    imu.accel_mps2.y = (double)NAN;
     ASSERT_REFUSED(*rest, rest->refused, insole_still_bias_push(rest, &imu), INSOLE_ERR_VALUE);
     imu = good;
-    imu.gyro_radps.z = INFINITY;
+    imu.gyro_radps.z = (double)INFINITY;
     ASSERT_REFUSED(*rest, rest->refused, insole_still_bias_push(rest, &imu), INSOLE_ERR_VALUE);
     ck_assert_uint_eq(rest->refused, 4u);
     ck_assert_int_eq(insole_still_bias_push(rest, &good), INSOLE_OK);

@@ -183,7 +183,7 @@ START_TEST(bad_settings_are_refused)
     ASSERT_UNCHANGED(window, insole_still_window_init(&window, NULL, 3u), INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(window, insole_still_window_init(&window, &SCALE, 0u), INSOLE_ERR_VALUE);
     ASSERT_UNCHANGED(window, insole_still_window_init(&window, &SCALE, 16u), INSOLE_ERR_VALUE);
-    static const insole_real_t BAD[] = {0, -1, NAN, INFINITY};
+    static const insole_real_t BAD[] = {0, -1, (double)NAN, (double)INFINITY};
     for (int i = 0; i < 12; i++) {
         insole_still_scale_t scale = SCALE;
         insole_real_t *member[] = {&scale.gravity_mps2, &scale.sigma_accel_mps2,
@@ -205,8 +205,9 @@ START_TEST(bad_samples_are_refused)
     insole_real_t before = statistic;
     ck_assert_int_eq(insole_still_window_push(NULL, one, one, &statistic), INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(window, insole_still_window_push(&window, one, one, NULL), INSOLE_ERR_NULL);
-    const insole_vec3_t bad[] = {insole_vec3(NAN, 1, 1), insole_vec3(1, INFINITY, 1),
-                                 insole_vec3(1, 1, -INFINITY)};
+    const insole_vec3_t bad[] = {insole_vec3((double)NAN, 1, 1),
+                                 insole_vec3(1, (double)INFINITY, 1),
+                                 insole_vec3(1, 1, -(double)INFINITY)};
     for (int i = 0; i < 3; i++) {
         ASSERT_UNCHANGED(window, insole_still_window_push(&window, bad[i], one, &statistic),
                          INSOLE_ERR_VALUE);
