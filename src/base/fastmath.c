@@ -51,6 +51,21 @@ static const float LN2_HI = 0.693145752f; /* 15 bits: times an exponent it is ex
 static const float LN2_LO = 1.42860677e-6f;
 static const uint32_t SQRT_HALF_BITS = 0x3f3504f3u;
 
+/* The nearest whole number of |x| < 2^22: added to 3 * 2^22 it has no room for a fraction, and
+ * stands in the low bits. */
+typedef struct {
+    int32_t number;
+    float value;
+} whole_t;
+
+static inline whole_t nearest_whole(float x)
+{
+    const float room = 12582912.0f;
+    float_bits_t sum = {x + room};
+    whole_t whole = {(int32_t)(sum.bits - 0x4b400000u), sum.value - room};
+    return whole;
+}
+
 /* x - k pi/2 for |k| < 2^13, rounded once. The first three parts of pi/2 have 11 bits: their
  * products with k are exact, and so are the first two differences and what the third one loses. */
 static inline float minus_quarter_turns(float x, float k)
@@ -86,8 +101,8 @@ typedef struct {
 
 static inline reduced_t reduce(float x)
 {
-    int32_t quarters = nearest(x * 0.636619772f);
-    reduced_t reduced = {quarters, minus_quarter_turns(x, (float)quarters)};
+    whole_t quarters = nearest_whole(x * 0.636619772f);
+    reduced_t reduced = {quarters.number, minus_quarter_turns(x, quarters.value)};
     return reduced;
 }
 
@@ -143,12 +158,12 @@ static float half_pi_minus(float angle)
 /* 2^k exp(r), |r| <= ln(2)/2; minimax, 2^-28.2. */
 static float exp_of(float x)
 {
-    int32_t k = nearest(x * 1.44269504f);
-    float r = (x - (float)k * LN2_HI) - (float)k * LN2_LO;
+    whole_t k = nearest_whole(x * 1.44269504f);
+    float r = (x - k.value * LN2_HI) - k.value * LN2_LO;
     float p = (1.3838897e-3f * r + 8.36919248e-3f) * r + 0.0416681021f;
     p = (p * r + 0.166665167f) * r + 0.49999994f;
     float_bits_t result = {1.0f + (r + r * r * p)};
-    result.bits += (uint32_t)k << MANTISSA_BITS;
+    result.bits += (uint32_t)k.number << MANTISSA_BITS;
     return result.value;
 }
 

@@ -58,8 +58,8 @@ static polar_t normal_point(insole_rng_t *rng)
 {
     insole_real_t share =
         ((insole_real_t)insole_rng_bits(rng) + INSOLE_R(0.5)) * INSOLE_R(2.3283064365386963e-10);
-    polar_t point = {insole_sqrt(INSOLE_R(-2.0) * insole_log(share)),
-                     INSOLE_R(2.0) * INSOLE_PI * insole_rng_uniform(rng)};
+    insole_real_t bearing_rad = INSOLE_R(2.0) * INSOLE_PI * insole_rng_uniform(rng);
+    polar_t point = {insole_sqrt(INSOLE_R(-2.0) * insole_log(share)), bearing_rad};
     return point;
 }
 

@@ -41,7 +41,11 @@ static inline insole_real_t insole_sqrt(insole_real_t x)
 /** Absolute value. */
 static inline insole_real_t insole_abs(insole_real_t x)
 {
-    return x < INSOLE_R(0.0) ? -x : x;
+#ifdef INSOLE_DOUBLE
+    return fabs(x);
+#else
+    return fabsf(x);
+#endif
 }
 
 /** The larger of two; `b` when `a` is not a number. */
