@@ -167,11 +167,10 @@ static float exp_of(float x)
     return result.value;
 }
 
-/* x = 2^k (1 + f), 1 + f in [sqrt(1/2), sqrt(2)); minimax, 2^-27. */
-static float log_of(float x)
+/* x = 2^k (1 + f), 1 + f in [sqrt(1/2), sqrt(2)); minimax, 2^-27. @return of x 2^scale */
+static float log_of_normal(float x, int32_t scale)
 {
-    bool subnormal = x < FLT_MIN;
-    float_bits_t m = {subnormal ? x * 8388608.0f : x};
+    float_bits_t m = {x};
     uint32_t above = m.bits - SQRT_HALF_BITS + ((uint32_t)EXPONENT_BIAS << MANTISSA_BITS);
     int32_t k = (int32_t)(above >> MANTISSA_BITS) - EXPONENT_BIAS;
     m.bits -= (uint32_t)k << MANTISSA_BITS;
@@ -180,8 +179,13 @@ static float log_of(float x)
     p = (p * f + 0.142002791f) * f - 0.166228324f;
     p = (p * f + 0.200012088f) * f - 0.250008494f;
     p = p * f + 0.333333403f;
-    float e = (float)(subnormal ? k - MANTISSA_BITS : k);
+    float e = (float)(k + scale);
     return e * LN2_HI + (f + (e * LN2_LO + f * f * (f * p - 0.5f)));
+}
+
+static float log_of(float x)
+{
+    return x < FLT_MIN ? log_of_normal(x * 8388608.0f, -MANTISSA_BITS) : log_of_normal(x, 0);
 }
 
 #endif
@@ -232,33 +236,30 @@ insole_real_t insole_atan2(insole_real_t y, insole_real_t x)
 
 insole_real_t insole_exp(insole_real_t x)
 {
+    if (x >= EXP_ARGUMENT_MIN && x <= EXP_ARGUMENT_MAX) {
+        return exp_of(x);
+    }
     if (x > EXP_ARGUMENT_MAX) {
         return INSOLE_REAL_MAX;
     }
-    if (x < EXP_ARGUMENT_MIN) {
-        return INSOLE_R(0.0);
-    }
-    return x != x ? x : exp_of(x);
+    return x < EXP_ARGUMENT_MIN ? INSOLE_R(0.0) : x;
 }
 
 insole_real_t insole_log(insole_real_t x)
 {
+    if (x > INSOLE_R(0.0) && x <= INSOLE_REAL_MAX) {
+        return log_of(x);
+    }
     if (x <= INSOLE_R(0.0)) {
         return -INSOLE_REAL_MAX;
     }
-    if (x > INSOLE_REAL_MAX) {
-        return INSOLE_REAL_MAX;
-    }
-    return x != x ? x : log_of(x);
+    return x > INSOLE_REAL_MAX ? INSOLE_REAL_MAX : x;
 }
 
-insole_real_t insole_wrap_pi(insole_real_t angle_rad)
+insole_real_t insole_wrap_far(insole_real_t angle_rad)
 {
-    if (!(angle_rad <= -INSOLE_PI || angle_rad > INSOLE_PI)) {
-        return angle_rad;
-    }
-    if (insole_abs(angle_rad) > ANGLE_MAX_RAD) {
-        return INSOLE_R(0.0);
+    if (!(insole_abs(angle_rad) <= ANGLE_MAX_RAD)) {
+        return angle_rad != angle_rad ? angle_rad : INSOLE_R(0.0);
     }
     int32_t turns = nearest(angle_rad * INSOLE_R(0.159154943091895336));
     insole_real_t wrapped = minus_quarter_turns(angle_rad, (insole_real_t)(4 * turns));

@@ -45,8 +45,15 @@ insole_real_t insole_exp(insole_real_t x);
 /** Natural logarithm. */
 insole_real_t insole_log(insole_real_t x);
 
-/** The same angle in (-pi, pi]. */
-insole_real_t insole_wrap_pi(insole_real_t angle_rad);
+/** The same angle in (-pi, pi], for angles that are mostly beyond. */
+insole_real_t insole_wrap_far(insole_real_t angle_rad);
+
+/** The same angle in (-pi, pi], for angles that are mostly within. */
+static inline insole_real_t insole_wrap_pi(insole_real_t angle_rad)
+{
+    return angle_rad <= -INSOLE_PI || angle_rad > INSOLE_PI ? insole_wrap_far(angle_rad)
+                                                            : angle_rad;
+}
 
 #ifdef __cplusplus
 }
