@@ -13,9 +13,14 @@ typedef struct {
     insole_real_t dx_m, dy_m; /* where it goes from there */
 } way_t;
 
-/* The part of the plane that a way can touch. */
+/* A part of the plane. */
 typedef struct {
     insole_real_t x_low_m, x_high_m, y_low_m, y_high_m;
+} box_t;
+
+/* What a way can touch. */
+typedef struct {
+    box_t box;
     insole_real_t slack_m2; /* for the side of a point as seen along the way */
 } reach_t;
 
@@ -24,14 +29,17 @@ static insole_real_t slack_m2(insole_real_t dx_m, insole_real_t dy_m)
     return INSOLE_FLOOR_PLAN_TOUCH_M * insole_sqrt(dx_m * dx_m + dy_m * dy_m);
 }
 
-static reach_t reach_of(const way_t *way)
+static box_t box_around(const way_t *way, insole_real_t margin_m)
 {
     insole_real_t x1_m = way->x_m + way->dx_m, y1_m = way->y_m + way->dy_m;
-    reach_t reach = {insole_min(way->x_m, x1_m) - INSOLE_FLOOR_PLAN_TOUCH_M,
-                     insole_max(way->x_m, x1_m) + INSOLE_FLOOR_PLAN_TOUCH_M,
-                     insole_min(way->y_m, y1_m) - INSOLE_FLOOR_PLAN_TOUCH_M,
-                     insole_max(way->y_m, y1_m) + INSOLE_FLOOR_PLAN_TOUCH_M,
-                     slack_m2(way->dx_m, way->dy_m)};
+    box_t box = {insole_min(way->x_m, x1_m) - margin_m, insole_max(way->x_m, x1_m) + margin_m,
+                 insole_min(way->y_m, y1_m) - margin_m, insole_max(way->y_m, y1_m) + margin_m};
+    return box;
+}
+
+static reach_t reach_of(const way_t *way)
+{
+    reach_t reach = {box_around(way, INSOLE_FLOOR_PLAN_TOUCH_M), slack_m2(way->dx_m, way->dy_m)};
     return reach;
 }
 
@@ -53,11 +61,16 @@ static bool both_outside(insole_real_t low, insole_real_t high, insole_real_t a,
     return (a < low && b < low) || (a > high && b > high);
 }
 
+static bool is_beside(const box_t *box, const insole_wall_t *wall)
+{
+    return both_outside(box->x_low_m, box->x_high_m, wall->x0_m, wall->x1_m) ||
+           both_outside(box->y_low_m, box->y_high_m, wall->y0_m, wall->y1_m);
+}
+
 /* Two segments are apart when a line along x, y or one of them separates them. */
 static bool touches(const way_t *way, const reach_t *reach, const insole_wall_t *wall)
 {
-    if (both_outside(reach->x_low_m, reach->x_high_m, wall->x0_m, wall->x1_m) ||
-        both_outside(reach->y_low_m, reach->y_high_m, wall->y0_m, wall->y1_m) ||
+    if (is_beside(&reach->box, wall) ||
         both_outside(-reach->slack_m2, reach->slack_m2, side_of_point(way, wall->x0_m, wall->y0_m),
                      side_of_point(way, wall->x1_m, wall->y1_m))) {
         return false;
@@ -98,7 +111,7 @@ static const insole_floor_plan_cell_t *first_cell(const insole_floor_plan_t *pla
 }
 
 /* The columns in which the way can touch the cells of the scan's row. */
-static void narrow_columns(scan_t *scan, const insole_floor_plan_t *plan)
+static inline void narrow_columns(scan_t *scan, const insole_floor_plan_t *plan)
 {
     insole_real_t low_m = (insole_real_t)scan->row * plan->cell_m - INSOLE_FLOOR_PLAN_TOUCH_M;
     insole_real_t high_m = low_m + plan->cell_m + INSOLE_R(2.0) * INSOLE_FLOOR_PLAN_TOUCH_M;
@@ -114,13 +127,13 @@ static void narrow_columns(scan_t *scan, const insole_floor_plan_t *plan)
 
 /* Begins with the lowest row. */
 static inline scan_t begin_scan(const insole_floor_plan_t *plan, const way_t *way,
-                                const reach_t *reach)
+                                const box_t *box)
 {
     scan_t scan;
-    scan.row = index_of(reach->y_low_m, plan->cells_per_m, plan->rows);
-    scan.last_row = index_of(reach->y_high_m, plan->cells_per_m, plan->rows);
-    scan.left = scan.block_left = index_of(reach->x_low_m, plan->cells_per_m, plan->columns);
-    scan.right = scan.block_right = index_of(reach->x_high_m, plan->cells_per_m, plan->columns);
+    scan.row = index_of(box->y_low_m, plan->cells_per_m, plan->rows);
+    scan.last_row = index_of(box->y_high_m, plan->cells_per_m, plan->rows);
+    scan.left = scan.block_left = index_of(box->x_low_m, plan->cells_per_m, plan->columns);
+    scan.right = scan.block_right = index_of(box->x_high_m, plan->cells_per_m, plan->columns);
     scan.is_block =
         scan.right - scan.left <= 1 || insole_abs(way->dy_m) < INSOLE_FLOOR_PLAN_TOUCH_M;
     scan.x_m = way->x_m;
@@ -170,7 +183,7 @@ bool insole_floor_plan_crosses(const insole_floor_plan_t *plan, insole_real_t x0
     }
     way_t way = way_in(plan, x0_m, y0_m, x1_m, y1_m);
     reach_t reach = reach_of(&way);
-    scan_t scan = begin_scan(plan, &way, &reach);
+    scan_t scan = begin_scan(plan, &way, &reach.box);
     do {
         const insole_floor_plan_cell_t *cells = first_cell(plan, scan.row);
         const uint16_t *end = &plan->entries[cells[scan.right + 1].begin];
@@ -183,19 +196,36 @@ bool insole_floor_plan_crosses(const insole_floor_plan_t *plan, insole_real_t x0
     return false;
 }
 
-/* Adds to the windings what changes on the way through one edge: +1 into its left, -1 out of it. */
-static void wind(const way_t *way, const insole_wall_t *edge, uint8_t *windings)
+/* What changes in the winding on the way through one edge: 1 into its left, -1 out of it. */
+static int32_t winding_through(const way_t *way, const insole_wall_t *edge)
 {
-    if (straddles(way, edge)) {
-        bool before = insole_wall_side(edge, way->x_m, way->y_m) > ZERO;
-        bool after = insole_wall_side(edge, way->x_m + way->dx_m, way->y_m + way->dy_m) > ZERO;
-        *windings = (uint8_t)(*windings + after - before);
+    if (!straddles(way, edge)) {
+        return 0;
     }
+    bool before = insole_wall_side(edge, way->x_m, way->y_m) > ZERO;
+    bool after = insole_wall_side(edge, way->x_m + way->dx_m, way->y_m + way->dy_m) > ZERO;
+    return after - before;
+}
+
+/* From the reference point of a cell, of which it is known, to a point in the cell. */
+static bool leads_inside(const insole_floor_plan_t *plan, const way_t *way,
+                         const insole_floor_plan_cell_t *cell)
+{
+    box_t box = box_around(way, ZERO);
+    int32_t outlines = cell->outlines, holes = cell->holes;
+    const uint16_t *end = &plan->entries[cell[1].begin];
+    for (const uint16_t *i = &plan->entries[cell[0].begin]; i < end; i++) {
+        if (*i < plan->ring_walls && !is_beside(&box, &plan->walls[*i])) {
+            int32_t *windings = *i < plan->outline_walls ? &outlines : &holes;
+            *windings += winding_through(way, &plan->walls[*i]);
+        }
+    }
+    return (uint8_t)outlines != 0 && (uint8_t)holes == 0;
 }
 
 bool insole_floor_plan_inside(const insole_floor_plan_t *plan, insole_real_t x_m, insole_real_t y_m)
 {
-    if (plan == NULL || !in_range(x_m, y_m, ZERO, ZERO)) {
+    if (plan == NULL) {
         return false;
     }
     insole_real_t x = x_m - plan->origin_x_m, y = y_m - plan->origin_y_m;
@@ -205,19 +235,11 @@ bool insole_floor_plan_inside(const insole_floor_plan_t *plan, insole_real_t x_m
         return false;
     }
     int32_t i = (int32_t)column, j = (int32_t)row;
-    const insole_floor_plan_cell_t *cell = first_cell(plan, j) + i;
     way_t way = {((insole_real_t)i + plan->spot_x) * plan->cell_m,
                  ((insole_real_t)j + plan->spot_y) * plan->cell_m, ZERO, ZERO};
     way.dx_m = x - way.x_m;
     way.dy_m = y - way.y_m;
-    uint8_t outlines = cell->outlines, holes = cell->holes;
-    for (uint32_t entry = cell[0].begin; entry < cell[1].begin; entry++) {
-        uint16_t number = plan->entries[entry];
-        if (number < plan->ring_walls) {
-            wind(&way, &plan->walls[number], number < plan->outline_walls ? &outlines : &holes);
-        }
-    }
-    return outlines != 0 && holes == 0;
+    return leads_inside(plan, &way, first_cell(plan, j) + i);
 }
 
 /* Share of the way at which it passes the wall to its other side; negative when it does not. */
@@ -268,8 +290,8 @@ insole_status_t insole_floor_plan_walls_between(const insole_floor_plan_t *plan,
         return INSOLE_ERR_VALUE;
     }
     way_t way = way_in(plan, x0_m, y0_m, x1_m, y1_m);
-    reach_t reach = reach_of(&way);
-    scan_t scan = begin_scan(plan, &way, &reach);
+    box_t box = box_around(&way, INSOLE_FLOOR_PLAN_TOUCH_M);
+    scan_t scan = begin_scan(plan, &way, &box);
     between->count = 0;
     between->loss_db = ZERO;
     do {
