@@ -155,7 +155,7 @@ void insole_evidence_turn(insole_evidence_t *evidence, insole_turn_t turn)
 
 static insole_real_t in_sigmas(insole_real_t off_m, insole_real_t sigma_m)
 {
-    return insole_max(-SIGMAS_MAX, insole_min(off_m / sigma_m, SIGMAS_MAX));
+    return insole_min(insole_abs(off_m / sigma_m), SIGMAS_MAX);
 }
 
 static insole_real_t log_of_position(const insole_evidence_t *evidence, insole_real_t x_m,

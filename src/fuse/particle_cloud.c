@@ -15,23 +15,6 @@ insole_status_t insole_cloud_check(const insole_cloud_t *cloud)
                                                                           : INSOLE_ERR_VALUE;
 }
 
-/* ---- walking ---- */
-
-void insole_cloud_walk(insole_particle_t *particle, const insole_cloud_stride_t *stride,
-                       insole_rng_t *rng)
-{
-    insole_real_t along, across;
-    insole_rng_normals(rng, &along, &across);
-    particle->offset_rad = insole_wrap_pi(particle->offset_rad + stride->sigma_wander_rad * across);
-    insole_turn_t direction =
-        insole_cloud_direction(particle, stride->heading_rad + stride->sigma_heading_rad * across);
-    insole_real_t length_m = stride->length_m * particle->scale + stride->sigma_length_m * along;
-    particle->x_m += length_m * direction.cos; /* [TwoOrder (32)] */
-    particle->y_m += length_m * direction.sin;
-    particle->scale =
-        ONE + stride->scale_memory * (particle->scale - ONE) + stride->sigma_scale * along;
-}
-
 /* ---- summing up ---- */
 
 static insole_real_t weight_of(const insole_particle_t *particle, insole_real_t heaviest)

@@ -107,8 +107,20 @@ static inline insole_turn_t insole_cloud_direction(const insole_particle_t *part
 
 /** Moves one particle by a stride, (32). Two normal numbers are drawn, one along and one across:
  *  that of the length goes into the scale too, that of the heading into the offset. */
-void insole_cloud_walk(insole_particle_t *particle, const insole_cloud_stride_t *stride,
-                       insole_rng_t *rng);
+static inline void insole_cloud_walk(insole_particle_t *particle,
+                                     const insole_cloud_stride_t *stride, insole_rng_t *rng)
+{
+    insole_real_t along, across, one = INSOLE_R(1.0);
+    insole_rng_normals(rng, &along, &across);
+    particle->offset_rad = insole_wrap_pi(particle->offset_rad + stride->sigma_wander_rad * across);
+    insole_turn_t direction =
+        insole_cloud_direction(particle, stride->heading_rad + stride->sigma_heading_rad * across);
+    insole_real_t length_m = stride->length_m * particle->scale + stride->sigma_length_m * along;
+    particle->x_m += length_m * direction.cos; /* [TwoOrder (32)] */
+    particle->y_m += length_m * direction.sin;
+    particle->scale =
+        one + stride->scale_memory * (particle->scale - one) + stride->sigma_scale * along;
+}
 
 /** @param heaviest  number of the heaviest particle */
 void insole_cloud_sum_begin(insole_cloud_sum_t *sum, const insole_cloud_t *cloud,
