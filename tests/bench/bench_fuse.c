@@ -8,11 +8,11 @@
 #define ROW_D   INSOLE_R(12.0) /* a corridor and the rooms on both its sides */
 #define DOOR_AT INSOLE_R(1.5)
 #define DOOR_TO INSOLE_R(2.5)
-#define THICK_M INSOLE_R(0.1)
+#define SHAFT_M INSOLE_R(0.5)
 #define LOSS_DB INSOLE_R(4.0)
 #define LEG_M   INSOLE_R(1.2)
 
-enum { PARTICLES = 500, STRIDES = 48, APS = 8, WALLS = 10000, PIECES_PER_MODULE = 7, SLICE = 50 };
+enum { PARTICLES = 500, STRIDES = 48, APS = 8, WALLS = 10100, SLICE = 50 };
 
 /* ---- an office, drawn piece by piece ---- */
 
@@ -21,7 +21,7 @@ static struct {
     insole_floor_plan_line_t line[WALLS + 1];
     uint32_t lines;
     insole_wall_t wall[WALLS];
-    insole_floor_plan_cell_t cell[2 * WALLS];
+    insole_floor_plan_cell_t cell[3 * WALLS];
     uint16_t entry[8 * WALLS < 65535 ? 8 * WALLS : 65535];
     insole_floor_plan_t plan;
 } office;
@@ -48,46 +48,39 @@ static void draw_line(insole_spot_t from, insole_spot_t to)
     office.line[office.lines++] = line;
 }
 
-/* One straight piece of masonry. Thick, it is the four walls around where nobody can be. */
-static void draw_piece(bool thick, insole_real_t x_m, insole_real_t y_m, insole_real_t width_m,
-                       insole_real_t depth_m)
+static void draw_wall(insole_real_t x_m, insole_real_t y_m, insole_real_t width_m,
+                      insole_real_t depth_m)
 {
-    insole_spot_t low = {x_m, y_m}, high = {x_m + width_m, y_m + depth_m};
-    if (!thick) {
-        draw_line(low, high);
-        return;
-    }
-    high.x_m += THICK_M;
-    high.y_m += THICK_M;
-    draw_ring(INSOLE_LINE_HOLE, low, high);
+    insole_spot_t from = {x_m, y_m}, to = {x_m + width_m, y_m + depth_m};
+    draw_line(from, to);
 }
 
-/* Two rooms with doors to the corridor between them. */
-static void draw_module(bool thick, insole_real_t x, insole_real_t y)
+/* Two rooms with doors to the corridor between them, and a shaft: 11 walls. */
+static void draw_rooms(insole_real_t x, insole_real_t y)
 {
-    insole_real_t upper = y + ROW_D - ROOM_D;
-    draw_piece(thick, x, y, INSOLE_R(0.0), ROOM_D);
-    draw_piece(thick, x, upper, INSOLE_R(0.0), ROOM_D);
-    draw_piece(thick, x, y, ROOM_W, INSOLE_R(0.0));
-    draw_piece(thick, x, y + ROOM_D, DOOR_AT, INSOLE_R(0.0));
-    draw_piece(thick, x + DOOR_TO, y + ROOM_D, ROOM_W - DOOR_TO, INSOLE_R(0.0));
-    draw_piece(thick, x, upper, DOOR_AT, INSOLE_R(0.0));
-    draw_piece(thick, x + DOOR_TO, upper, ROOM_W - DOOR_TO, INSOLE_R(0.0));
+    insole_real_t none = INSOLE_R(0.0), upper = y + ROW_D - ROOM_D;
+    insole_spot_t shaft = {x, y + ROOM_D - SHAFT_M}, end = {x + SHAFT_M, y + ROOM_D};
+    draw_wall(x, y, none, ROOM_D);
+    draw_wall(x, upper, none, ROOM_D);
+    draw_wall(x, y, ROOM_W, none);
+    draw_wall(x, y + ROOM_D, DOOR_AT, none);
+    draw_wall(x + DOOR_TO, y + ROOM_D, ROOM_W - DOOR_TO, none);
+    draw_wall(x, upper, DOOR_AT, none);
+    draw_wall(x + DOOR_TO, upper, ROOM_W - DOOR_TO, none);
+    draw_ring(INSOLE_LINE_HOLE, shaft, end);
 }
 
-static void build_office(bool thick, uint32_t columns, uint32_t rows)
+static void build_office(uint32_t columns, uint32_t rows)
 {
-    insole_spot_t low = {INSOLE_R(-1.0), INSOLE_R(-1.0)};
-    insole_spot_t high = {(insole_real_t)columns * ROOM_W + INSOLE_R(1.0),
-                          (insole_real_t)rows * ROW_D + INSOLE_R(1.0)};
+    insole_spot_t low = {INSOLE_R(0.0), INSOLE_R(0.0)};
+    insole_spot_t high = {(insole_real_t)columns * ROOM_W, (insole_real_t)rows * ROW_D};
     insole_floor_plan_memory_t memory = {office.wall,  WALLS,
                                          office.cell,  sizeof office.cell / sizeof office.cell[0],
                                          office.entry, sizeof office.entry / sizeof office.entry[0]};
     office.lines = 0;
     draw_ring(INSOLE_LINE_OUTLINE, low, high);
     for (uint32_t i = 0; i < columns * rows; i++) {
-        draw_module(thick, (insole_real_t)(i % columns) * ROOM_W,
-                    (insole_real_t)(i / columns) * ROW_D);
+        draw_rooms((insole_real_t)(i % columns) * ROOM_W, (insole_real_t)(i / columns) * ROW_D);
     }
     insole_floor_plan_build(&office.plan, office.line, office.lines, &memory);
 }
@@ -227,37 +220,37 @@ static void take_position_and_range(void)
 
 static void begin_small(void)
 {
-    build_office(false, 4u, 4u);
+    build_office(5u, 2u);
     begin_walk(&insole_particle_filter_defaults);
 }
 
 static void begin_usual(void)
 {
-    build_office(false, 13u, 11u);
+    build_office(7u, 13u);
     begin_walk(&insole_particle_filter_defaults);
 }
 
 static void begin_huge(void)
 {
-    build_office(false, 34u, 42u);
+    build_office(26u, 35u);
     begin_walk(&insole_particle_filter_defaults);
 }
 
 static void begin_small_two_order(void)
 {
-    build_office(true, 4u, 1u);
+    build_office(5u, 2u);
     begin_walk(&insole_particle_filter_two_order);
 }
 
 static void begin_usual_two_order(void)
 {
-    build_office(true, 9u, 4u);
+    build_office(7u, 13u);
     begin_walk(&insole_particle_filter_two_order);
 }
 
 static void begin_huge_two_order(void)
 {
-    build_office(true, 17u, 21u);
+    build_office(26u, 35u);
     begin_walk(&insole_particle_filter_two_order);
 }
 
