@@ -49,8 +49,10 @@ static void add(insole_cloud_sum_t *sum, const insole_particle_t *particle)
 
 bool insole_cloud_sum_work(insole_cloud_sum_t *sum, const insole_cloud_t *cloud, uint32_t *budget)
 {
-    for (; *budget > 0 && sum->next < cloud->count; sum->next++, --*budget) {
-        add(sum, &cloud->particles[sum->next]);
+    const insole_particle_t *particle = &cloud->particles[sum->next];
+    sum->next = insole_cloud_slice(cloud, sum->next, budget);
+    for (const insole_particle_t *end = &cloud->particles[sum->next]; particle < end; particle++) {
+        add(sum, particle);
     }
     return sum->next < cloud->count;
 }

@@ -326,7 +326,8 @@ static void end_phase(insole_particle_filter_t *filter, const insole_cloud_t *cl
 static void work_particles(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
                            const insole_floor_plan_t *plan, uint32_t *budget)
 {
-    for (; *budget > 0 && filter->next < cloud->count; filter->next++, --*budget) {
+    uint32_t end = insole_cloud_slice(cloud, filter->next, budget);
+    for (; filter->next < end; filter->next++) {
         work_one(filter, cloud, plan);
     }
     if (filter->next == cloud->count) {

@@ -98,6 +98,17 @@ static inline bool insole_particle_lives(const insole_particle_t *particle)
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for no particles or more than a million */
 insole_status_t insole_cloud_check(const insole_cloud_t *cloud);
 
+/** Takes as many particles off the budget as it allows and are left from number `first` on.
+ *  @return number of the first that is not among them */
+static inline uint32_t insole_cloud_slice(const insole_cloud_t *cloud, uint32_t first,
+                                          uint32_t *budget)
+{
+    uint32_t left = first < cloud->count ? cloud->count - first : 0;
+    uint32_t taken = left < *budget ? left : *budget;
+    *budget -= taken;
+    return first + taken;
+}
+
 /** The direction of a particle's stride with this heading in n. */
 static inline insole_turn_t insole_cloud_direction(const insole_particle_t *particle,
                                                    insole_real_t heading_rad)
