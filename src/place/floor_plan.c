@@ -126,8 +126,7 @@ static inline void narrow_columns(scan_t *scan, const insole_floor_plan_t *plan)
 }
 
 /* Begins with the lowest row. */
-static inline scan_t begin_scan(const insole_floor_plan_t *plan, const way_t *way,
-                                const box_t *box)
+static inline scan_t begin_scan(const insole_floor_plan_t *plan, const way_t *way, const box_t *box)
 {
     scan_t scan;
     scan.row = index_of(box->y_low_m, plan->cells_per_m, plan->rows);

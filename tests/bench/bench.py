@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Counts instructions per call and compares them with expected.csv.
+"""Counts instructions per call and compares them with expected.csv and limits.csv.
 
 usage: bench.py host BENCH              counted by callgrind
        bench.py m4 QEMU... IMAGE        counted by the emulated board
@@ -18,6 +18,7 @@ import tempfile
 from pathlib import Path
 
 EXPECTED = Path(__file__).with_name("expected.csv")
+LIMITS = Path(__file__).with_name("limits.csv")
 TOLERANCE = 0.03
 SKIPPED = 77
 COLUMNS = ("host", "m4", "m4_max")
@@ -69,11 +70,14 @@ def measure_m4(command):
                       for name, (mean, largest, _) in cases.items()}
 
 
+def rows_of(text):
+    return csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
+
+
 def read_expected(text):
     """({machine: compiler}, {case: {column: count}})"""
     compilers = dict(re.findall(r"^# (\w+): compiler (.+)$", text, re.M))
-    rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
-    return compilers, {row["name"]: {c: int(row[c]) for c in COLUMNS} for row in rows}
+    return compilers, {row["name"]: {c: int(row[c]) for c in COLUMNS} for row in rows_of(text)}
 
 
 def write_expected(compilers, cases):
@@ -103,13 +107,28 @@ def compare(measured, expected):
     return problems, table
 
 
+def over_limit(machine, measured, limits):
+    """Problems of the counts with the rows of limits.csv, whichever compiler made the code."""
+    problems = []
+    for row in (row for row in limits if row["machine"] == machine):
+        name, of, limit = row["name"], row["of"], row["limit"]
+        missing = [case for case in (name, of) if not case.isdigit() and case not in measured]
+        problems += [f"{case}: has a limit but is not measured" for case in missing]
+        if not missing:
+            times = measured[name][machine] / (int(of) if of.isdigit() else measured[of][machine])
+            if times > float(limit):
+                problems.append(f"{name}: {times:.5g} times {of} on {machine}, limit {limit}")
+    return problems
+
+
 def check_counts(machine, compiler, measured):
     compilers, expected = read_expected(EXPECTED.read_text())
     problems, table = compare(measured, expected)
+    beyond = over_limit(machine, measured, rows_of(LIMITS.read_text()))
     print("\n".join(table))
-    if compiler != compilers[machine]:
+    if compiler != compilers[machine] and not beyond:
         raise Skip(f"expected.csv is for compiler {compilers[machine]}, this is {compiler}")
-    return problems
+    return problems + beyond
 
 
 def differing(host, m4):

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * fuse/: the particle filter in offices of equal density and different size, on a walk along a
- * corridor, into a room and back. All that a stride takes is counted, for all particles together. */
+ * corridor, into a room and back. All that a stride takes is counted, for all particles together.
+ */
 #include "bench.h"
 
 #define ROOM_W  INSOLE_R(4.0) /* along the corridor */
@@ -74,9 +75,10 @@ static void build_office(uint32_t columns, uint32_t rows)
 {
     insole_spot_t low = {INSOLE_R(0.0), INSOLE_R(0.0)};
     insole_spot_t high = {(insole_real_t)columns * ROOM_W, (insole_real_t)rows * ROW_D};
-    insole_floor_plan_memory_t memory = {office.wall,  WALLS,
-                                         office.cell,  sizeof office.cell / sizeof office.cell[0],
-                                         office.entry, sizeof office.entry / sizeof office.entry[0]};
+    insole_floor_plan_memory_t memory = {
+        office.wall,  WALLS,
+        office.cell,  sizeof office.cell / sizeof office.cell[0],
+        office.entry, sizeof office.entry / sizeof office.entry[0]};
     office.lines = 0;
     draw_ring(INSOLE_LINE_OUTLINE, low, high);
     for (uint32_t i = 0; i < columns * rows; i++) {
@@ -128,8 +130,7 @@ static insole_real_t way_of(uint32_t stride)
     static const insole_real_t quarters[4] = {INSOLE_R(0.0), INSOLE_R(1.0), INSOLE_R(-1.0),
                                               INSOLE_R(2.0)};
     uint32_t k = stride % 24u;
-    return INSOLE_R(0.5) * INSOLE_PI *
-           quarters[k < 10u ? 0u : k < 12u ? 1u : k < 14u ? 2u : 3u];
+    return INSOLE_R(0.5) * INSOLE_PI * quarters[k < 10u ? 0u : k < 12u ? 1u : k < 14u ? 2u : 3u];
 }
 
 static void listen(insole_real_t way_rad)
@@ -145,8 +146,7 @@ static void listen(insole_real_t way_rad)
         insole_propagation_expect(&insole_propagation_defaults, &aps[i], at.x_m, at.y_m,
                                   walls.loss_db, behind ? INSOLE_R(1.0) : INSOLE_R(0.0), &expected);
         readings[i].id = i;
-        readings[i].rss_dbm =
-            expected.rss_dbm + INSOLE_R(4.0) * insole_rng_normal(&bench_rng);
+        readings[i].rss_dbm = expected.rss_dbm + INSOLE_R(4.0) * insole_rng_normal(&bench_rng);
     }
 }
 

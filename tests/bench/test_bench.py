@@ -72,5 +72,36 @@ class Comparing(unittest.TestCase):
         self.assertEqual(len(bench.differing({"f": "1"}, {})), 1)
 
 
+class Limits(unittest.TestCase):
+    measured = {"small": {"host": 1000, "m4": 900}, "large": {"host": 1500, "m4": 1351}}
+
+    def problems(self, *row):
+        limit = dict(zip(("machine", "name", "of", "limit"), row))
+        return bench.over_limit(row[0], self.measured, [limit])
+
+    def test_parts_of_a_call(self):
+        self.assertEqual(self.problems("host", "small", "500", "2"), [])
+        self.assertEqual(len(self.problems("host", "small", "500", "1.99")), 1)
+
+    def test_growth_from_case_to_case(self):
+        self.assertEqual(self.problems("host", "large", "small", "1.5"), [])
+        self.assertEqual(len(self.problems("m4", "large", "small", "1.5")), 1)
+
+    def test_a_limit_holds_on_its_machine(self):
+        limit = {"machine": "m4", "name": "large", "of": "small", "limit": "1.5"}
+        self.assertEqual(bench.over_limit("host", self.measured, [limit]), [])
+
+    def test_what_has_a_limit_is_measured(self):
+        self.assertEqual(len(self.problems("host", "gone", "small", "2")), 1)
+        self.assertEqual(len(self.problems("host", "small", "gone", "2")), 1)
+
+    def test_the_limits_kept_are_of_cases_that_are_known(self):
+        _, expected = bench.read_expected(bench.EXPECTED.read_text())
+        limits = list(bench.rows_of(bench.LIMITS.read_text()))
+        self.assertGreater(len(limits), 0)
+        for machine in ("host", "m4"):
+            self.assertEqual(bench.over_limit(machine, expected, limits), [])
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -285,6 +285,11 @@ START_TEST(exp_and_log_never_step_back)
 }
 END_TEST
 
+static const struct {
+    insole_real_t (*wrap)(insole_real_t);
+    float from_rad;
+} WRAPS[] = {{insole_wrap_pi, 3.0f}, {insole_wrap_far, 1e-6f}};
+
 START_TEST(wrapped_angle_is_the_same_angle)
 {
 #ifdef INSOLE_DOUBLE
@@ -294,9 +299,9 @@ START_TEST(wrapped_angle_is_the_same_angle)
 #endif
     const double ulp_of_pi = 2.0 * (double)INSOLE_REAL_EPSILON;
     worst_t wrapping = {0.0, 0.0};
-    for (uint32_t bits = bits_of(3.0f); bits <= bits_of(9999.9f); bits += 101u) {
+    for (uint32_t bits = bits_of(WRAPS[_i].from_rad); bits <= bits_of(9999.9f); bits += 101u) {
         insole_real_t x = bits & 1u ? -number_of(bits) : number_of(bits);
-        insole_real_t wrapped = insole_wrap_pi(x);
+        insole_real_t wrapped = WRAPS[_i].wrap(x);
         oracle_t off = (oracle_t)wrapped - (oracle_t)x;
         off = ORACLE(fabs)(off - 2 * PI_EXACT * ORACLE(nearbyint)(off / (2 * PI_EXACT)));
         bool inside = wrapped > -INSOLE_PI && wrapped <= INSOLE_PI;
@@ -409,7 +414,7 @@ Suite *insole_suite(void)
     suite_add(suite, "odd and even", odd_and_even);
     suite_add(suite, "monotonic", exp_and_log_never_step_back);
     suite_add(suite, "turn", turn_has_the_bits_of_cos_and_sin);
-    suite_add(suite, "wrap", wrapped_angle_is_the_same_angle);
+    suite_add_loop(suite, "wrap", wrapped_angle_is_the_same_angle, 2);
     suite_add(suite, "wrap leaves alone", wrapping_leaves_a_wrapped_angle_alone);
     suite_add(suite, "wrap at the cut", wrapping_at_the_cut);
 #ifndef INSOLE_DOUBLE

@@ -209,6 +209,23 @@ START_TEST(the_mean_offset_is_one_on_the_circle)
 }
 END_TEST
 
+START_TEST(a_slice_is_as_large_as_budget_and_cloud_allow)
+{
+    static const uint32_t cases[][4] = {/* first, budget, end, budget left */
+                                        {0, 7, 7, 0},
+                                        {7, 7, 14, 0},
+                                        {14, 7, 20, 1},
+                                        {20, 7, 20, 7},
+                                        {25, 7, 25, 7},
+                                        {3, 0, 3, 0},
+                                        {1, UINT32_MAX, 20, UINT32_MAX - 19}};
+    insole_cloud_t twenty = {particles, 20, NULL, 0};
+    uint32_t budget = cases[_i][1];
+    ck_assert_uint_eq(insole_cloud_slice(&twenty, cases[_i][0], &budget), cases[_i][2]);
+    ck_assert_uint_eq(budget, cases[_i][3]);
+}
+END_TEST
+
 START_TEST(sums_in_slices_are_the_same)
 {
     make_cloud(3u, 500, 50.0, 60.0, 5.0);
@@ -609,6 +626,7 @@ Suite *insole_suite(void)
     suite_add(suite, "covariance of many", rounding_makes_no_negative_variance);
     suite_add_loop(suite, "mean offset", the_mean_offset_is_one_on_the_circle,
                    sizeof offset_means / sizeof offset_means[0]);
+    suite_add_loop(suite, "a slice", a_slice_is_as_large_as_budget_and_cloud_allow, 7);
     suite_add(suite, "sums in slices", sums_in_slices_are_the_same);
     suite_add_loop(suite, "unbiased", copies_are_unbiased, 3);
     suite_add(suite, "mean stays", resampling_keeps_the_mean);

@@ -633,6 +633,52 @@ START_TEST(sliced_or_whole_the_bits_are_the_same)
 }
 END_TEST
 
+/* ---- what it costs ---- */
+
+START_TEST(five_hundred_particles_fit_in_16_kilobytes)
+{
+    size_t floats = sizeof(insole_real_t) / sizeof(float);
+    ck_assert_uint_le(sizeof filter + 500 * sizeof particles[0], 16384 * floats);
+}
+END_TEST
+
+/* Works in a stride with a scan up to the end of the phase.
+ *  @return calls that this took, with a budget of one pair of a node and an access point */
+static uint32_t calls_in_phase(insole_particle_phase_t phase)
+{
+    uint32_t calls = 0;
+    while (filter.phase != phase) {
+        ck_assert(insole_particle_filter_work(&filter, &cloud, &radio.building, 1));
+    }
+    for (; filter.phase == phase; calls++) {
+        ck_assert(insole_particle_filter_work(&filter, &cloud, &radio.building, 1));
+    }
+    return calls;
+}
+
+/* However many particles there are, the walls between nodes and access points are all that the
+ * radio needs: once the field is computed nobody asks for the building any more. */
+START_TEST(walls_weaken_the_radio_by_node_not_by_particle)
+{
+    static const uint32_t counts[] = {N, N_MAX};
+    begin_world(21u, 0.0, 0.0, 0.0);
+    begin_filter(&insole_particle_filter_defaults, counts[_i]);
+    start(walk[0].x, walk[0].y, 0.3, 0.0, 0.1);
+    for (int k = 1; k < 4; k++) {
+        insole_evidence_t news = stride_of(k);
+        hear(&news, k);
+        begin(&news);
+        ck_assert_uint_le(calls_in_phase(INSOLE_PARTICLES_FIELD),
+                          (INSOLE_RSS_FIELD_NODES + 1) * APS);
+        ck_assert_int_eq(filter.phase, INSOLE_PARTICLES_WEIGH);
+        while (insole_particle_filter_work(&filter, &cloud, NULL, WHOLE)) {
+        }
+        ASSERT_AT_MOST(error_at(k), 0.5, "m");
+    }
+    ck_assert_uint_eq(filter.counts.scans, 3);
+}
+END_TEST
+
 /* The comb lies anew each time. */
 START_TEST(resampling_draws_its_shift)
 {
@@ -1055,6 +1101,8 @@ Suite *insole_suite(void)
     suite_add(suite, "start beside", a_start_beside_the_building);
     suite_add(suite, "nobody can be there", a_start_where_nobody_can_be);
     suite_add(suite, "slices", sliced_or_whole_the_bits_are_the_same);
+    suite_add(suite, "memory", five_hundred_particles_fit_in_16_kilobytes);
+    suite_add_loop(suite, "walls by node", walls_weaken_the_radio_by_node_not_by_particle, 2);
     suite_add(suite, "shifts", resampling_draws_its_shift);
     suite_add(suite, "seeds", equal_seeds_give_equal_bits_others_do_not);
     suite_add(suite, "saved", saved_and_restored_it_goes_on_alike);

@@ -125,6 +125,7 @@ START_TEST(helpers_of_the_real_type)
     ASSERT_NEAR(insole_min(nan, one), 1.0, 0.0, "");
     ASSERT_NEAR(insole_abs(-two), 2.0, 0.0, "");
     ASSERT_NEAR(insole_abs(two), 2.0, 0.0, "");
+    ck_assert(!signbit(insole_abs(-INSOLE_R(0.0))));
     ASSERT_NEAR(insole_square(-two), 4.0, 0.0, "");
     ASSERT_NEAR(insole_sqrt(INSOLE_R(6.25)), 2.5, 0.0, "");
     ASSERT_NEAR(INSOLE_PI, 3.14159265358979323846, 2.0 * EPS, "");
