@@ -21,22 +21,32 @@ char *fields_trim(char *text)
     return text;
 }
 
+char *fields_next(char **rest)
+{
+    char *field = *rest;
+    if (field == NULL) {
+        return NULL;
+    }
+    char *comma = strchr(field, ',');
+    *rest = comma == NULL ? NULL : comma + 1;
+    if (comma != NULL) {
+        *comma = '\0';
+    }
+    return fields_trim(field);
+}
+
 void fields_split(fields_t *fields, char *line)
 {
     fields->count = 0;
     if (fields_is_blank_line(line)) {
         return;
     }
-    for (char *comma; line != NULL; line = comma) {
+    while (line != NULL) {
         if (fields->count == FIELDS_MAX) {
             fields->count++;
             return;
         }
-        comma = strchr(line, ',');
-        if (comma != NULL) {
-            *comma++ = '\0';
-        }
-        fields->at[fields->count++] = fields_trim(line);
+        fields->at[fields->count++] = fields_next(&line);
     }
 }
 

@@ -15,6 +15,10 @@ typedef struct {
     int count;            /**< 0 for an empty line; FIELDS_MAX + 1 when there were more */
 } fields_t;
 
+/** Cuts the first field off in place and moves `*rest` behind its comma, or to NULL after the last.
+ *  @return the field without the blanks around it; NULL when `*rest` is NULL */
+char *fields_next(char **rest);
+
 /** Cuts the line in place. */
 void fields_split(fields_t *fields, char *line);
 

@@ -56,6 +56,13 @@ uint32_t id_table_number(id_table_t *table, const char *name)
     return table->slots[slot] - 1u;
 }
 
+bool id_table_find(const id_table_t *table, const char *name, uint32_t *number)
+{
+    uint32_t found = table->slot_count == 0u ? 0u : table->slots[find_slot(table, name)];
+    *number = found - 1u;
+    return found != 0u;
+}
+
 void id_table_free(id_table_t *table)
 {
     for (size_t i = 0u; i < table->count; i++) {

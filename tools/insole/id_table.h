@@ -5,6 +5,7 @@
 #ifndef INSOLE_HOST_ID_TABLE_H
 #define INSOLE_HOST_ID_TABLE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -21,6 +22,9 @@ void id_table_init(id_table_t *table);
 
 /** The number of a name, given to it when it is new. */
 uint32_t id_table_number(id_table_t *table, const char *name);
+
+/** The number of a name that is known already. @return false for one that is not */
+bool id_table_find(const id_table_t *table, const char *name, uint32_t *number);
 
 void id_table_free(id_table_t *table);
 

@@ -1,0 +1,45 @@
+/** @file site.h  A building ready for the trackers: plan and access points, in memory of their own.
+ *
+ *      static site_t site;
+ *      if (site_open(&site, "plan.csv", "aps.csv", &propagation, &failure)) ...
+ *          insole_rss_field_hear(&field, &site.building, readings, count);
+ *          id = ap_file_number(&site.ap_file, &log_ids, record.id);
+ *      site_free(&site);
+ *
+ *  An open site points into itself: it stays where it is.
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_HOST_SITE_H
+#define INSOLE_HOST_SITE_H
+
+#include "ap_file.h"
+#include "insole/place/rss_field.h"
+#include "plan_file.h"
+
+typedef struct {
+    plan_file_t plan_file; /**< all zero without a plan */
+    ap_file_t ap_file;     /**< all zero without access points */
+    insole_floor_plan_memory_t memory;
+    insole_floor_plan_t plan;   /**< the first floor of the file */
+    insole_building_t building; /**< its `plan` is NULL without a plan */
+} site_t;
+
+/** @param plan_path, aps_path  NULL: none
+ *  @param propagation  settings that have passed their check; they must last as long as the site.
+ *                      A refusal leaves nothing to free. */
+bool site_open(site_t *site, const char *plan_path, const char *aps_path,
+               const insole_propagation_config_t *propagation, failure_t *failure);
+
+/** Cells of the plan's grid, and one that closes the table. */
+size_t site_cell_count(const insole_floor_plan_t *plan);
+
+/** Entries of the plan's grid. */
+size_t site_entry_count(const insole_floor_plan_t *plan);
+
+/** Bytes of walls, cells and entries, as they would lie in flash. */
+size_t site_plan_bytes(const insole_floor_plan_t *plan);
+
+void site_free(site_t *site);
+
+#endif
