@@ -20,7 +20,7 @@ plot_area_t plot_area_empty(void)
     return area;
 }
 
-static void add_place(plot_area_t *area, double x_m, double y_m)
+void plot_area_add_place(plot_area_t *area, double x_m, double y_m)
 {
     if (area->x_low > area->x_high) {
         area->x_low = area->x_high = x_m;
@@ -36,7 +36,7 @@ void plot_area_add(plot_area_t *area, const track_t *track)
 {
     for (size_t i = 0u; i < track->count; i++) {
         if (isfinite(track->rows[i].x_m) && isfinite(track->rows[i].y_m)) {
-            add_place(area, track->rows[i].x_m, track->rows[i].y_m);
+            plot_area_add_place(area, track->rows[i].x_m, track->rows[i].y_m);
         }
     }
 }
@@ -53,7 +53,7 @@ static void widen(double *low, double *high, double extent)
 plot_frame_t plot_frame(plot_area_t area)
 {
     if (area.x_low > area.x_high) {
-        add_place(&area, 0.0, 0.0);
+        plot_area_add_place(&area, 0.0, 0.0);
     }
     widen(&area.x_low, &area.x_high, fmax(1.1 * (area.x_high - area.x_low), smallest_extent_m));
     widen(&area.y_low, &area.y_high, fmax(1.1 * (area.y_high - area.y_low), smallest_extent_m));
@@ -121,7 +121,7 @@ static void draw_scale_bar(FILE *file, const plot_frame_t *frame)
 {
     char number[NUMBER_ROOM], label[NUMBER_ROOM + 4];
     double length_m = round_length(120.0 / frame->pixels_per_m);
-    double right = frame->right - 14.0, y = frame->bottom - 14.0;
+    double right = frame->right, y = frame->bottom + 42.0;
     double left = right - length_m * frame->pixels_per_m;
     const char *style = "stroke=\"#333\" stroke-width=\"2\"";
     svg_line(file, left, y, right, y, style);

@@ -26,6 +26,9 @@ plot_area_t plot_area_empty(void);
 /** Makes the area hold every row of the track. */
 void plot_area_add(plot_area_t *area, const track_t *track);
 
+/** Makes the area hold a place. */
+void plot_area_add_place(plot_area_t *area, double x_m, double y_m);
+
 plot_frame_t plot_frame(plot_area_t area);
 
 /** Pixels of a place. */

@@ -109,3 +109,18 @@ void svg_path_end(FILE *file)
 {
     fputs("\"/>\n", file);
 }
+
+void svg_shape_begin(FILE *file, const char *style)
+{
+    fprintf(file, "<polygon %s points=\"", style);
+}
+
+void svg_hatch(FILE *file, const char *name, const char *ground, const char *colour)
+{
+    fprintf(file,
+            "<defs><pattern id=\"%s\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\" "
+            "patternTransform=\"rotate(45)\">\n",
+            name);
+    fprintf(file, "<rect width=\"6\" height=\"6\" fill=\"%s\"/>\n", ground);
+    fprintf(file, "<rect width=\"1.2\" height=\"6\" fill=\"%s\"/></pattern></defs>\n", colour);
+}

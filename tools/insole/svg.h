@@ -32,4 +32,10 @@ void svg_path_begin(FILE *file, const char *style);
 void svg_path_point(FILE *file, double x, double y);
 void svg_path_end(FILE *file);
 
+/** A closed shape, which may be filled: begin, corner by corner by svg_path_point, svg_path_end. */
+void svg_shape_begin(FILE *file, const char *style);
+
+/** Makes `fill="url(#name)"` fill with slanted lines. */
+void svg_hatch(FILE *file, const char *name, const char *ground, const char *colour);
+
 #endif
