@@ -5,12 +5,12 @@
 
 #include "insole/insole.h"
 
-static const command_t *const commands[] = {
-    &command_replay,   &command_score,
+static const command_t *const commands[] = {&command_replay,   &command_score,
 #ifdef INSOLE_HOST_HAS_SIMULATOR
-    &command_simulate,
+                                            &command_simulate,
 #endif
-    &command_compare,  &command_calibrate, &command_config, &command_plan, NULL};
+                                            &command_compare,  &command_calibrate, &command_config,
+                                            &command_plan,     &command_pack,      NULL};
 
 const command_t *const *help_commands(void)
 {

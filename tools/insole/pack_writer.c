@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT */
+#include "pack_writer.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "number.h"
+
+enum { LINE_WIDTH = 96, MOST_DIGITS = sizeof(insole_real_t) == sizeof(float) ? 9 : 17 };
+
+typedef struct {
+    FILE *file;
+    const site_t *site;
+    const char *name;
+} writer_t;
+
+bool pack_is_name(const char *name)
+{
+    size_t length = strlen(name);
+    if (length == 0u || length > PACK_NAME_LENGTH || !isalpha((unsigned char)name[0])) {
+        return false;
+    }
+    for (size_t i = 0u; i < length; i++) {
+        if ((unsigned char)name[i] > 0x7fu ||
+            (!isalnum((unsigned char)name[i]) && name[i] != '_')) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ---- numbers and text ------------------------------------------------------------------- */
+
+static bool gives_back(const char *number, insole_real_t value)
+{
+    bool is_float = sizeof value == sizeof(float);
+    return (is_float ? (double)strtof(number, NULL) : strtod(number, NULL)) == (double)value;
+}
+
+/* A literal of the library's real type, with as few digits as give it back. */
+static const char *real_text(char buffer[NUMBER_ROOM + 16], insole_real_t value)
+{
+    char number[NUMBER_ROOM];
+    int digits = 5;
+    do {
+        snprintf(number, sizeof number, "%.*g", ++digits, (double)value);
+    } while (digits < MOST_DIGITS && !gives_back(number, value));
+    snprintf(buffer, NUMBER_ROOM + 16, "INSOLE_R(%s%s)", number,
+             strpbrk(number, ".e") == NULL ? ".0" : "");
+    return buffer;
+}
+
+/* Writes `{a, b, ...}`. */
+static void write_reals(FILE *file, const insole_real_t *values, size_t count)
+{
+    char buffer[NUMBER_ROOM + 16];
+    for (size_t i = 0u; i < count; i++) {
+        fprintf(file, "%s%s", i == 0u ? "{" : ", ", real_text(buffer, values[i]));
+    }
+    putc('}', file);
+}
+
+/* What is not a plain character is written in octal; `?` too, so that no trigraph comes about. */
+static void write_string(FILE *file, const char *text)
+{
+    putc('"', file);
+    for (; *text != '\0'; text++) {
+        unsigned char c = (unsigned char)*text;
+        if (c < 0x20u || c > 0x7eu || c == '"' || c == '\\' || c == '?') {
+            fprintf(file, "\\%03o", (unsigned)c);
+        } else {
+            putc(c, file);
+        }
+    }
+    putc('"', file);
+}
+
+/* The name of a file in a comment, which it must not end. */
+static void write_comment(FILE *file, const char *text)
+{
+    for (; *text != '\0'; text++) {
+        bool is_plain = (unsigned char)*text >= 0x20u && strchr("*\\?", *text) == NULL;
+        putc(is_plain ? *text : '_', file);
+    }
+}
+
+/* ---- plan ------------------------------------------------------------------------------- */
+
+static void write_walls(const writer_t *writer)
+{
+    const insole_floor_plan_t *plan = &writer->site->plan;
+    fprintf(writer->file, "static const insole_wall_t %s_walls[%u] = {\n", writer->name,
+            (unsigned)plan->wall_count);
+    for (size_t i = 0u; i < plan->wall_count; i++) {
+        const insole_wall_t *wall = &plan->walls[i];
+        const insole_real_t values[5] = {wall->x0_m, wall->y0_m, wall->x1_m, wall->y1_m,
+                                         wall->loss_db};
+        fputs("    ", writer->file);
+        write_reals(writer->file, values, 5u);
+        fputs(",\n", writer->file);
+    }
+    fputs("};\n\n", writer->file);
+}
+
+/* Begins a new line where the next item would not fit. */
+static void write_item(FILE *file, const char *item, size_t *column)
+{
+    size_t length = strlen(item);
+    if (*column + length + 1u > LINE_WIDTH) {
+        *column = 0u;
+    }
+    fprintf(file, "%s%s", *column > 0u ? " " : "\n    ", item);
+    *column += *column > 0u ? length + 1u : length + 4u;
+}
+
+static void write_cells(const writer_t *writer)
+{
+    char item[NUMBER_ROOM];
+    size_t column = 0u, count = site_cell_count(&writer->site->plan);
+    fprintf(writer->file, "static const insole_floor_plan_cell_t %s_cells[%lu] = {", writer->name,
+            (unsigned long)count);
+    for (size_t i = 0u; i < count; i++) {
+        const insole_floor_plan_cell_t *cell = &writer->site->plan.cells[i];
+        snprintf(item, sizeof item, "{%u, %u, %u},", cell->begin, cell->outlines, cell->holes);
+        write_item(writer->file, item, &column);
+    }
+    fputs("\n};\n\n", writer->file);
+}
+
+static void write_entries(const writer_t *writer)
+{
+    char item[NUMBER_ROOM];
+    size_t column = 0u, count = site_entry_count(&writer->site->plan);
+    fprintf(writer->file, "static const uint16_t %s_entries[%lu] = {", writer->name,
+            (unsigned long)count);
+    for (size_t i = 0u; i < count; i++) {
+        snprintf(item, sizeof item, "%u,", writer->site->plan.entries[i]);
+        write_item(writer->file, item, &column);
+    }
+    fputs("\n};\n\n", writer->file);
+}
+
+static void write_plan(const writer_t *writer)
+{
+    const insole_floor_plan_t *plan = &writer->site->plan;
+    const struct {
+        const char *name;
+        insole_real_t value;
+    } reals[] = {{"origin_x_m", plan->origin_x_m}, {"origin_y_m", plan->origin_y_m},
+                 {"cell_m", plan->cell_m},         {"cells_per_m", plan->cells_per_m},
+                 {"spot_x", plan->spot_x},         {"spot_y", plan->spot_y}};
+    char buffer[NUMBER_ROOM + 16];
+    write_walls(writer);
+    write_cells(writer);
+    write_entries(writer);
+    fprintf(writer->file, "const insole_floor_plan_t %s_plan = {\n", writer->name);
+    for (size_t i = 0u; i < sizeof reals / sizeof reals[0]; i++) {
+        fprintf(writer->file, "    .%s = %s,\n", reals[i].name, real_text(buffer, reals[i].value));
+    }
+    fprintf(writer->file,
+            "    .columns = %u,\n    .rows = %u,\n    .outline_walls = %u,\n    .ring_walls = %u,\n"
+            "    .wall_count = %u,\n    .walls = %s_walls,\n    .cells = %s_cells,\n"
+            "    .entries = %s_entries,\n};\n",
+            plan->columns, plan->rows, plan->outline_walls, plan->ring_walls, plan->wall_count,
+            writer->name, writer->name, writer->name);
+}
+
+/* ---- access points ---------------------------------------------------------------------- */
+
+static void write_aps(const writer_t *writer)
+{
+    const ap_file_t *aps = &writer->site->ap_file;
+    FILE *file = writer->file;
+    unsigned long count = (unsigned long)aps->count;
+    fprintf(file, "const uint32_t %s_ap_count = %lu;\n\n", writer->name, count);
+    fprintf(file, "const insole_ap_t %s_aps[%lu] = {\n", writer->name, count);
+    for (size_t i = 0u; i < aps->count; i++) {
+        const insole_ap_t *ap = &aps->aps[i];
+        const insole_real_t values[6] = {ap->x_m,    ap->y_m,      ap->z_m,
+                                         ap->p0_dbm, ap->exponent, ap->near_dbm};
+        fputs("    ", file);
+        write_reals(file, values, 6u);
+        fputs(",\n", file);
+    }
+    fprintf(file, "};\n\nconst char *const %s_ap_ids[%lu] = {\n", writer->name, count);
+    for (size_t i = 0u; i < aps->count; i++) {
+        fputs("    ", file);
+        write_string(file, aps->ids.names[i]);
+        fputs(",\n", file);
+    }
+    fputs("};\n", file);
+}
+
+/* ---- file ------------------------------------------------------------------------------- */
+
+/* What other files may say to use the tables; it stands here too, so that the compiler compares. */
+static void write_declarations(const writer_t *writer)
+{
+    FILE *file = writer->file;
+    if (writer->site->building.plan != NULL) {
+        fprintf(file, "extern const insole_floor_plan_t %s_plan;\n", writer->name);
+    }
+    if (writer->site->ap_file.count > 0u) {
+        unsigned long count = (unsigned long)writer->site->ap_file.count;
+        fprintf(file,
+                "extern const uint32_t %s_ap_count;\nextern const insole_ap_t %s_aps[%lu];\n"
+                "extern const char *const %s_ap_ids[%lu];\n",
+                writer->name, writer->name, count, writer->name, count);
+    }
+}
+
+static void write_head(const writer_t *writer)
+{
+    const site_t *site = writer->site;
+    fputs("/* Made by `insole pack` from ", writer->file);
+    write_comment(writer->file, site->building.plan != NULL ? site->plan_file.name : "");
+    fputs(site->building.plan != NULL && site->ap_file.count > 0u ? " and " : "", writer->file);
+    write_comment(writer->file, site->ap_file.count > 0u ? site->ap_file.name : "");
+    fprintf(writer->file,
+            ": change those, not this.\n"
+            " * The plan takes %lu bytes, the access points %lu and their ids. */\n",
+            (unsigned long)(site->building.plan != NULL ? site_plan_bytes(&site->plan) : 0u),
+            (unsigned long)(site->ap_file.count * sizeof *site->ap_file.aps));
+    fputs("#include \"insole/place/floor_plan.h\"\n"
+          "#include \"insole/place/propagation.h\"\n"
+          "\n"
+          "/* Say this where the tables are used. */\n",
+          writer->file);
+    write_declarations(writer);
+    putc('\n', writer->file);
+}
+
+void pack_write(FILE *file, const site_t *site, const char *name)
+{
+    const writer_t writer = {file, site, name};
+    write_head(&writer);
+    if (site->building.plan != NULL) {
+        write_plan(&writer);
+    }
+    if (site->building.plan != NULL && site->ap_file.count > 0u) {
+        putc('\n', file);
+    }
+    if (site->ap_file.count > 0u) {
+        write_aps(&writer);
+    }
+}
