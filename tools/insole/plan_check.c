@@ -340,6 +340,9 @@ void plan_check(findings_t *findings, const site_t *site, const plan_parts_t *pa
 {
     const plan_file_t *plan = &site->plan_file;
     check_scale(findings, plan);
+    if (findings->errors > 0u) {
+        return; /* in a wrong unit everything is too near or too far */
+    }
     check_floors(findings, plan);
     for (size_t i = 0u; i < plan->count; i++) {
         check_line(findings, &plan->lines[i]);

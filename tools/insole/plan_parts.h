@@ -12,11 +12,15 @@
 
 #include "plan_file.h"
 
-/** Half the width of a person [m]: narrower than twice this, a gap is no door. */
+/** Half the width of a person [m]. */
 #define PLAN_PARTS_BODY_M 0.2
 
-/** Any gap so wide is found [m]. */
+/** Any gap so wide is taken for a door [m]. */
 #define PLAN_PARTS_DOOR_M 0.7
+
+/** No gap so narrow is [m]: a step of the coarsest raster leads from one side to the other of a gap
+ *  a little narrower than a person. */
+#define PLAN_PARTS_CRACK_M 0.28
 
 typedef struct {
     double area_m2;     /**< where the person's middle can be */
