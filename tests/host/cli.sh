@@ -84,7 +84,7 @@ printf 'imu,0,1,2\n' >bad.csv
 
 run --version; status_is 0; has out 'insole '; empty err
 run --help; status_is 0; empty err
-for command in replay score compare calibrate config; do
+for command in replay score compare calibrate config plan pack; do
     has out "  $command "
     run "$command" --help; status_is 0; empty err; has out "insole $command"; has out 'Options'
     run help "$command"; status_is 0; has out "insole $command"
@@ -97,7 +97,7 @@ refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' xyzzy
 refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' help xyzzy
 
 # No line of help is too wide for a terminal of 100 columns.
-for command in replay score compare calibrate config files; do
+for command in replay score compare calibrate config plan pack files; do
     run help "$command"
     [ "$(awk 'length > 100' out | wc -l)" -eq 0 ] || fail 'lines of more than 100 columns'
 done
@@ -322,6 +322,59 @@ head -n 390 walk.csv >rest.csv
 run calibrate imu rest.csv
 status_is 1
 has err 'rest.csv: shorter than 2 s'
+
+# ---- plan and pack -------------------------------------------------------------------------
+
+printf 'outline,0,0,20,0,20,10,0,10\nwall,5,10,0,10,4\nwall,5,10,5.2,10,10\n' >plan.csv
+printf 'id,x,y\nlobby,1,1\noffice,19,9\n' >aps.csv
+printf 'outline,0,0,20,0,0,10,20,10\n' >crossed.csv
+printf 'outline,0,0,20,0\n' >open.csv
+printf 'id,x,y\nlobby,1,1\nlobby,19,9\n' >twice.csv
+refuses 2 'insole plan nothing: expected check or draw' plan
+refuses 2 'insole plan paint: expected check or draw' plan paint plan.csv
+refuses 2 'insole plan check: expected one file, PLAN' plan check
+refuses 2 'insole plan draw: expected one file, PLAN' plan draw plan.csv aps.csv --out x.svg
+refuses 2 'insole plan draw: no --out: expected --out FILE' plan draw plan.csv
+refuses 2 'insole plan check: --out is of draw' plan check plan.csv --out x.svg
+refuses 2 'insole plan: --out ./aps.csv would overwrite what is read' \
+    plan draw plan.csv --aps aps.csv --out ./aps.csv
+refuses 1 'absent.csv: cannot open: No such file or directory' plan check absent.csv
+refuses 1 'open.csv:1: outline of 2 points: expected at least 3, outline,x,y,x,y,...' \
+    plan check open.csv
+refuses 1 'twice.csv:3: id "lobby" comes twice: it is that of line 2' \
+    plan check plan.csv --aps twice.csv
+run plan check plan.csv --aps aps.csv
+status_is 0; empty err
+has out 'plan.csv: 20.0 x 10.0 m, 200 m^2 to walk on, 6 walls, 1 part'
+has out 'plan.csv: grid of 5 x 3 cells of 4.7 m, '
+has out 'aps.csv: 2 access points'
+has out '0 errors, 0 warnings'
+cp plan.csv input
+run plan check -; status_is 0; has out 'stdin: 20.0 x 10.0 m'
+: >input
+run plan check crossed.csv
+status_is 1; empty err
+has out 'crossed.csv:1: error: outline crosses itself near 10.00,5.00'
+has out '1 error, '
+run plan draw plan.csv --aps aps.csv --out plan.svg
+status_is 0; empty out; empty err
+has plan.svg '>lobby<'
+run plan draw plan.csv --out -; status_is 0; has out '</svg>'
+refuses 2 'insole pack: nothing to pack: expected --plan or --aps' pack --out site.c
+refuses 2 'insole pack: no --out: expected --out FILE' pack --plan plan.csv
+refuses 2 'insole pack: takes no operands, only --plan and --aps' pack plan.csv --out site.c
+refuses 2 'insole pack: --name 2nd: expected a letter, then letters, digits and underscores, at most 40' \
+    pack --plan plan.csv --name 2nd --out site.c
+refuses 2 'insole pack: --out plan.csv would overwrite what is read' \
+    pack --plan plan.csv --out plan.csv
+refuses 1 'crossed.csv: 1 error: `insole plan check` tells what is wrong' \
+    pack --plan crossed.csv --out site.c
+[ ! -e site.c ] || fail 'a refusal has left a file'
+run pack --plan plan.csv --aps aps.csv --out site.c
+status_is 0; empty out; empty err
+has site.c 'const insole_floor_plan_t site_plan = {'
+has site.c '"lobby",'
+run pack --aps aps.csv --name hall --out -; status_is 0; has out 'hall_aps[2]'
 
 # ---- simulate, in builds that have it ------------------------------------------------------
 

@@ -143,7 +143,18 @@ START_TEST(bad_access_points_are_told_and_the_plan_is_freed)
 }
 END_TEST
 
-/* 70 squares of 1000 points each: more walls than the library counts. */
+START_TEST(its_files_are_known)
+{
+    open_site(plan_text, aps_text);
+    ck_assert(site_is_file(&site, scratch("plan.csv")));
+    ck_assert(site_is_file(&site, SCRATCH "/./aps.csv"));
+    ck_assert(!site_is_file(&site, scratch("absent.csv")));
+    site_free(&site);
+    ck_assert(!site_is_file(&site, scratch("plan.csv")));
+}
+END_TEST
+
+/* 70 lines of 1000 points each: more walls than the library counts. */
 START_TEST(too_many_walls_are_told)
 {
     const char *path = scratch("large.csv");
@@ -173,6 +184,7 @@ Suite *insole_suite(void)
     suite_add(suite, "grid", the_grid_is_as_fine_as_the_library_wants_it);
     suite_add(suite, "bad plans", what_cannot_be_built_is_told);
     suite_add(suite, "bad access points", bad_access_points_are_told_and_the_plan_is_freed);
+    suite_add(suite, "files", its_files_are_known);
     suite_add(suite, "too many", too_many_walls_are_told);
     return suite;
 }

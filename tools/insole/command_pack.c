@@ -35,6 +35,9 @@ static bool write_file(const arguments_t *arguments, const site_t *site, const c
 {
     FILE *file;
     const char *path = options_value(arguments, "out");
+    if (site_is_file(site, path)) {
+        return failure_usage(failure, "insole pack: --out %s would overwrite what is read", path);
+    }
     if (!output_open(&file, path, failure)) {
         return false;
     }

@@ -69,13 +69,16 @@ static bool check(const arguments_t *arguments, const site_t *site, failure_t *f
 
 static bool draw(const arguments_t *arguments, const site_t *site, failure_t *failure)
 {
+    const char *path = options_value(arguments, "out");
     char text[TEXT_ROOM];
     plan_parts_t parts;
+    if (site_is_file(site, path)) {
+        return failure_usage(failure, "insole plan: --out %s would overwrite what is read", path);
+    }
     plan_parts_find(&parts, &site->plan);
     describe(text, site, &parts);
     plan_parts_free(&parts);
-    return plan_page_write(site, site->plan_file.name, text, options_value(arguments, "out"),
-                           failure);
+    return plan_page_write(site, site->plan_file.name, text, path, failure);
 }
 
 static bool run(const arguments_t *arguments, failure_t *failure)

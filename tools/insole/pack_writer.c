@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "number.h"
+#include "platform.h"
 
 enum { LINE_WIDTH = 96, MOST_DIGITS = sizeof(insole_real_t) == sizeof(float) ? 9 : 17 };
 
@@ -78,9 +79,9 @@ static void write_string(FILE *file, const char *text)
 }
 
 /* The name of a file in a comment, which it must not end. */
-static void write_comment(FILE *file, const char *text)
+static void write_comment(FILE *file, const char *path)
 {
-    for (; *text != '\0'; text++) {
+    for (const char *text = platform_base_name(path); *text != '\0'; text++) {
         bool is_plain = (unsigned char)*text >= 0x20u && strchr("*\\?", *text) == NULL;
         putc(is_plain ? *text : '_', file);
     }

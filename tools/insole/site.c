@@ -6,6 +6,7 @@
 
 #include "memory.h"
 #include "number.h"
+#include "platform.h"
 
 /* Of insole_floor_plan_build. */
 enum { WALLS_MAX = 65535, CELLS_MAX = 65534, ENTRIES_MAX = 65535 };
@@ -110,6 +111,13 @@ bool site_open(site_t *site, const char *plan_path, const char *aps_path,
     site->building.aps = site->ap_file.aps;
     site->building.ap_count = (uint32_t)site->ap_file.count;
     return true;
+}
+
+bool site_is_file(const site_t *site, const char *path)
+{
+    const char *plan = site->plan_file.name, *aps = site->ap_file.name;
+    return (plan != NULL && platform_is_same_file(plan, path)) ||
+           (aps != NULL && platform_is_same_file(aps, path));
 }
 
 size_t site_cell_count(const insole_floor_plan_t *plan)

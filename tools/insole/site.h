@@ -31,6 +31,9 @@ typedef struct {
 bool site_open(site_t *site, const char *plan_path, const char *aps_path,
                const insole_propagation_config_t *propagation, failure_t *failure);
 
+/** Is this one of the files the site was read from, which must not be written? */
+bool site_is_file(const site_t *site, const char *path);
+
 /** Cells of the plan's grid, and one that closes the table. */
 size_t site_cell_count(const insole_floor_plan_t *plan);
 
