@@ -101,6 +101,6 @@ const command_t command_pack = {
     "\n"
     "  insole_building_t building = {&propagation, site_aps, site_ap_count, &site_plan, NULL};\n"
     "\n"
-    "What aps.csv does not tell is taken from the default settings.\n",
+    "What the files do not tell is taken from the default settings.\n",
     options,
     run};

@@ -41,7 +41,7 @@ void help_program(FILE *file)
     }
     fputs("\n"
           "insole COMMAND --help    options and examples of a command\n"
-          "insole help files        formats of logs, truth and tracks\n"
+          "insole help files        formats of logs, tracks, plans and access points\n"
           "insole --version\n"
           "\n"
           "Exit: 0 done, 1 bad input, 2 wrong usage.\n",
@@ -77,6 +77,21 @@ void help_files(FILE *file)
         "Track (replay --out): t,x,y,z,heading,var_x,cov_xy,var_y,var_z,var_heading,state\n"
         "  state: align (not yet stood still), search (place not known), track, coast (readings\n"
         "  are missing), lost\n"
+        "\n"
+        "Plan: metres from a corner of the building, x to the east, y to the north.\n"
+        "\n"
+        "  outline,x,y,x,y,...          ring around where one can walk; several may overlap\n"
+        "  hole,x,y,x,y,...             ring nobody can be in: a pillar, a stairwell\n"
+        "  wall,loss_db,x,y,x,y,...     inner wall from point to point; doors are gaps\n"
+        "  loss,dB                      loss of the walls that the rings after it are\n"
+        "  floor,number,z,name          opens a floor; the first of a file is the one that is "
+        "used\n"
+        "\n"
+        "A ring closes by itself. `insole plan check` tells what is wrong with a plan.\n"
+        "\n"
+        "Access points: a header that names the columns id,x,y,z,p0_dbm,exponent,near_dbm in any\n"
+        "order, then one access point a line. id,x,y must be there; an empty field tells nothing.\n"
+        "  p0_dbm: received at 1 m; exponent: of the path loss; near_dbm: mean received at 1.5 m\n"
         "\n"
         "Config: lines  key = value ; `insole config` prints all keys.\n",
         file);
