@@ -212,7 +212,6 @@ static bool read_lines(reader_t *reader)
 
 static bool read_all(reader_t *reader)
 {
-    reader->field_count = 0;
     reader->aps->name = memory_text(reader->lines.name);
     bool is_good = read_lines(reader);
     line_reader_close(&reader->lines);
@@ -222,25 +221,29 @@ static bool read_all(reader_t *reader)
     return is_good;
 }
 
-bool ap_file_read(ap_file_t *aps, const char *path, const insole_propagation_config_t *propagation,
-                  failure_t *failure)
+static reader_t begin(ap_file_t *aps, const insole_propagation_config_t *propagation,
+                      failure_t *failure)
 {
     reader_t reader;
+    memset(&reader, 0, sizeof reader);
+    memset(aps, 0, sizeof *aps);
     reader.aps = aps;
     reader.propagation = propagation;
     reader.failure = failure;
-    memset(aps, 0, sizeof *aps);
+    return reader;
+}
+
+bool ap_file_read(ap_file_t *aps, const char *path, const insole_propagation_config_t *propagation,
+                  failure_t *failure)
+{
+    reader_t reader = begin(aps, propagation, failure);
     return line_reader_open(&reader.lines, path, failure) && read_all(&reader);
 }
 
 bool ap_file_take(ap_file_t *aps, FILE *file, const char *name,
                   const insole_propagation_config_t *propagation, failure_t *failure)
 {
-    reader_t reader;
-    reader.aps = aps;
-    reader.propagation = propagation;
-    reader.failure = failure;
-    memset(aps, 0, sizeof *aps);
+    reader_t reader = begin(aps, propagation, failure);
     line_reader_attach(&reader.lines, file, name);
     return read_all(&reader);
 }

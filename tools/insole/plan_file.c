@@ -266,7 +266,6 @@ static bool read_all(reader_t *reader)
 {
     plan_file_t *plan = reader->plan;
     plan->name = memory_text(reader->lines.name);
-    reader->ring_db = NUMBER_UNKNOWN;
     bool is_good = read_lines(reader);
     line_reader_close(&reader->lines);
     if (!is_good) {
@@ -275,21 +274,26 @@ static bool read_all(reader_t *reader)
     return is_good;
 }
 
-bool plan_file_read(plan_file_t *plan, const char *path, failure_t *failure)
+static reader_t begin(plan_file_t *plan, failure_t *failure)
 {
     reader_t reader;
+    memset(&reader, 0, sizeof reader);
+    memset(plan, 0, sizeof *plan);
     reader.plan = plan;
     reader.failure = failure;
-    memset(plan, 0, sizeof *plan);
+    reader.ring_db = NUMBER_UNKNOWN;
+    return reader;
+}
+
+bool plan_file_read(plan_file_t *plan, const char *path, failure_t *failure)
+{
+    reader_t reader = begin(plan, failure);
     return line_reader_open(&reader.lines, path, failure) && read_all(&reader);
 }
 
 bool plan_file_take(plan_file_t *plan, FILE *file, const char *name, failure_t *failure)
 {
-    reader_t reader;
-    reader.plan = plan;
-    reader.failure = failure;
-    memset(plan, 0, sizeof *plan);
+    reader_t reader = begin(plan, failure);
     line_reader_attach(&reader.lines, file, name);
     return read_all(&reader);
 }
