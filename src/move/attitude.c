@@ -130,12 +130,11 @@ static insole_status_t start(insole_attitude_t *att, const insole_imu_t *imu)
     return INSOLE_OK;
 }
 
-/* Mean rate of two samples, and their coning term, (w_prev x w) dt^2 / 12. */
+/* A sample is the mean rate of its interval; with the coning term (w_prev x w) dt^2 / 12. */
 static void turn(insole_attitude_t *att, insole_vec3_t rate, insole_real_t dt)
 {
     insole_vec3_t coning = insole_vec3_cross(att->last_gyro_radps, rate);
-    insole_vec3_t mean = insole_vec3_middle(att->last_gyro_radps, rate);
-    insole_vec3_t d = insole_vec3_add_scaled(insole_vec3_scale(mean, dt),
+    insole_vec3_t d = insole_vec3_add_scaled(insole_vec3_scale(rate, dt),
                                              dt * dt * (INSOLE_R(1.0) / INSOLE_R(12.0)), coning);
     insole_quat_t dq = insole_quat_from_rotvec(d); /* [PhoneEKF (7)], [PhoneUKF (9)-(10)] */
     /* q- = F q [PhoneEKF (9), (17)], [PhoneUKF (13)] */

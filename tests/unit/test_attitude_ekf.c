@@ -313,11 +313,10 @@ START_TEST(a_run_is_that_of_the_four_state_filter)
         if (i < 3) {
             f = four_of(att.q, att.P);
         } else {
-            d3_t mean = d3_scale(d3_add(d3_of(now), 1.0, d3_of(before)), 0.5);
             d3_t a = d3_of(before), b = d3_of(now);
             d3_t coning = d3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
             double sigma = (double)config.gyro_noise_rad_rts / sqrt(0.2);
-            four_predict(&f, d3_add(mean, 0.2 / 12.0, coning), 0.2, sigma);
+            four_predict(&f, d3_add(b, 0.2 / 12.0, coning), 0.2, sigma);
             double noise = (double)config.accel_noise_mps_rts;
             four_correct(&f, d3(0.0, 0.0, MOTION_G), d3_of(imu.accel_mps2), noise * noise / 0.2, 0);
             worst_note(&attitude, apart_q(&f, att.q), i);
