@@ -136,7 +136,7 @@ static void turn(insole_attitude_t *att, insole_vec3_t rate, insole_real_t dt)
     insole_vec3_t coning = insole_vec3_cross(att->last_gyro_radps, rate);
     insole_vec3_t d = insole_vec3_add_scaled(insole_vec3_scale(rate, dt),
                                              dt * dt * (INSOLE_R(1.0) / INSOLE_R(12.0)), coning);
-    insole_quat_t dq = insole_quat_from_rotvec(d); /* [PhoneEKF (7)], [PhoneUKF (9)-(10)] */
+    insole_quat_t dq = insole_quat_from_rotvec(d); /* [PhoneEKF (7)], [PhoneUKF (9)] */
     /* q- = F q [PhoneEKF (9), (17)], [PhoneUKF (13)] */
     att->q = insole_quat_normalize(insole_quat_mul(att->q, dq));
 }
@@ -222,6 +222,7 @@ insole_real_t insole_trust_variance(const insole_trust_t *trust, insole_real_t d
     if (!(deviation < trust->gate)) {
         return ZERO;
     }
+    /* [PhoneUKF (12)] */
     insole_real_t off = trust->soft > ZERO ? deviation / trust->soft : ZERO;
     return insole_square(trust->density) * (INSOLE_R(1.0) + off * off) / dt_s;
 }
