@@ -43,7 +43,8 @@ static inline insole_quat_t insole_quat_conjugate(insole_quat_t q)
     return insole_quat(q.w, -q.x, -q.y, -q.z);
 }
 
-/** Rotation matrix, [TwoOrder (15)]; `q` of unit length. */
+/** Rotation matrix, [TwoOrder (15)], [PhoneEKF (5)] transposed, [PhoneUKF (8)]; `q` of unit length.
+ */
 static inline insole_mat3_t insole_quat_to_mat3(insole_quat_t q)
 {
     insole_real_t x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
