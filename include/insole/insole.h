@@ -32,6 +32,7 @@
 #include "insole/move/attitude_ekf.h"
 #include "insole/move/attitude_ukf.h"
 #include "insole/move/heading.h"
+#include "insole/move/magnetic.h"
 #include "insole/move/stride.h"
 #include "insole/move/zupt_cov.h"
 #include "insole/move/zupt_ekf.h"
