@@ -38,11 +38,6 @@ static bool is_within(insole_vec3_t v, insole_real_t limit)
     return insole_vec3_is_finite(v) && insole_vec3_max_abs(v) <= limit;
 }
 
-static insole_real_t seconds(uint64_t from_us, uint64_t to_us)
-{
-    return (insole_real_t)(to_us - from_us) * INSOLE_R(1.0e-6);
-}
-
 insole_status_t insole_attitude_init(insole_attitude_t *att, const insole_attitude_config_t *config)
 {
     if (!att || !config) {
@@ -261,7 +256,7 @@ static void correct_by_gravity(insole_attitude_t *att, insole_attitude_method_t 
 static insole_vec3_t predict(insole_attitude_t *att, const insole_imu_t *imu, uint32_t clipped)
 {
     insole_vec3_t rate = insole_vec3_sub(imu->gyro_radps, att->gyro_bias_radps);
-    insole_real_t dt = seconds(att->t_us, imu->t_us);
+    insole_real_t dt = insole_seconds(att->t_us, imu->t_us);
     bool follows = dt <= att->config.gap_s;
     if (follows) {
         turn(att, rate, dt);
@@ -286,7 +281,7 @@ static void feel(insole_attitude_t *att, insole_attitude_method_t *method, insol
     follow_up(att, force_n, dt);
     if (att->levelling) {
         level(att);
-        att->levelling = seconds(att->level_us, att->t_us) < att->config.level_s;
+        att->levelling = insole_seconds(att->level_us, att->t_us) < att->config.level_s;
     } else if (method) {
         correct_by_gravity(att, method, force_n, dt);
         if (is_upset(att)) {
@@ -312,7 +307,7 @@ insole_status_t insole_attitude_push(insole_attitude_t *att, insole_attitude_met
         return refuse(att, INSOLE_ERR_TIME);
     }
     insole_vec3_t force_n = predict(att, imu, clipped);
-    insole_real_t dt = insole_min(seconds(att->t_us, imu->t_us), att->config.gap_s);
+    insole_real_t dt = insole_min(insole_seconds(att->t_us, imu->t_us), att->config.gap_s);
     att->t_us = imu->t_us;
     feel(att, method, force_n, dt);
     return INSOLE_OK;

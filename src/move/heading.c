@@ -7,17 +7,12 @@
  * rolled: of two axes at right angles only one can be steep. */
 static const insole_real_t STEEP = INSOLE_R(0.35);
 
-static insole_real_t level_part(insole_vec3_t v)
-{
-    return insole_sqrt(v.x * v.x + v.y * v.y);
-}
-
 /* Columns of the rotation matrix: the axes of b in n. */
 static insole_vec3_t axis_ahead(insole_mat3_t C)
 {
     insole_vec3_t top = insole_vec3(C.r0.y, C.r1.y, C.r2.y);
     insole_vec3_t screen = insole_vec3(C.r0.z, C.r1.z, C.r2.z);
-    if (level_part(top) >= STEEP) {
+    if (insole_vec3_level(top) >= STEEP) {
         return top;
     }
     return top.z > ZERO ? insole_vec3_neg(screen) : screen;
@@ -26,7 +21,7 @@ static insole_vec3_t axis_ahead(insole_mat3_t C)
 insole_heading_t insole_heading(insole_quat_t q, const insole_sym3_t *cov)
 {
     insole_vec3_t v = axis_ahead(insole_quat_to_mat3(q));
-    insole_real_t level = level_part(v);
+    insole_real_t level = insole_vec3_level(v);
     insole_heading_t heading;
     /* [PhoneEKF (30)] counts from +y: its cosine is our sine, its sine our cosine with a minus */
     heading.ahead.cos = v.x / level;

@@ -53,15 +53,11 @@ insole_status_t insole_magnetic_set_field(insole_magnetic_t *magnetic, insole_ve
     return INSOLE_OK;
 }
 
-static insole_real_t level_part(insole_vec3_t v)
-{
-    return insole_sqrt(v.x * v.x + v.y * v.y);
-}
-
 /* Difference of two fields in what no heading changes: strength and dip. */
 static insole_real_t deviation_of(insole_vec3_t a, insole_vec3_t b)
 {
-    return insole_sqrt(insole_square(level_part(a) - level_part(b)) + insole_square(a.z - b.z));
+    return insole_sqrt(insole_square(insole_vec3_level(a) - insole_vec3_level(b)) +
+                       insole_square(a.z - b.z));
 }
 
 static void learn(insole_magnetic_t *magnetic, insole_vec3_t field_n)
@@ -86,15 +82,11 @@ static void correct(insole_magnetic_t *magnetic, insole_attitude_t *att,
     magnetic->passed += used ? 0u : 1u;
 }
 
-static insole_real_t seconds(uint64_t from_us, uint64_t to_us)
-{
-    return (insole_real_t)(to_us - from_us) * INSOLE_R(1.0e-6);
-}
-
 static bool is_timely(const insole_magnetic_t *magnetic, const insole_attitude_t *att,
                       uint64_t t_us)
 {
-    insole_real_t off_s = t_us > att->t_us ? seconds(att->t_us, t_us) : seconds(t_us, att->t_us);
+    insole_real_t off_s =
+        t_us > att->t_us ? insole_seconds(att->t_us, t_us) : insole_seconds(t_us, att->t_us);
     return (!magnetic->has_time || t_us > magnetic->t_us) && off_s <= att->config.gap_s;
 }
 
@@ -113,7 +105,8 @@ insole_status_t insole_magnetic_push(insole_magnetic_t *magnetic, insole_attitud
     if (!is_timely(magnetic, att, mag->t_us)) {
         return refuse(magnetic, INSOLE_ERR_TIME);
     }
-    insole_real_t dt_s = magnetic->has_time ? seconds(magnetic->t_us, mag->t_us) : SHORTEST_S;
+    insole_real_t dt_s =
+        magnetic->has_time ? insole_seconds(magnetic->t_us, mag->t_us) : SHORTEST_S;
     magnetic->has_time = true;
     magnetic->t_us = mag->t_us;
     insole_vec3_t field_n = insole_quat_rotate(att->q, mag->field_ut);
@@ -136,7 +129,7 @@ insole_status_t insole_magnetic_azimuth(const insole_attitude_t *att, insole_vec
         return INSOLE_ERR_VALUE;
     }
     insole_vec3_t field_n = insole_quat_rotate(att->q, field_b_ut);
-    if (!att->aligned || level_part(field_n) < LEAST_UT) {
+    if (!att->aligned || insole_vec3_level(field_n) < LEAST_UT) {
         return INSOLE_ERR_STATE;
     }
     *azimuth_rad = insole_atan2(field_n.y, field_n.x);

@@ -56,6 +56,7 @@ START_TEST(norms)
     insole_vec3_t v = insole_vec3(INSOLE_R(2.0), INSOLE_R(-3.0), INSOLE_R(6.0));
     ASSERT_NEAR(insole_vec3_norm(v), 7.0, 0.0, "");
     ASSERT_NEAR(insole_vec3_max_abs(v), 6.0, 0.0, "");
+    ASSERT_NEAR(insole_vec3_level(insole_vec3(INSOLE_R(-3.0), INSOLE_R(4.0), v.z)), 5.0, 0.0, "");
     ASSERT_NEAR(insole_vec3_max_abs(insole_vec3_neg(v)), 6.0, 0.0, "");
     ASSERT_NEAR(insole_vec3_max_abs(insole_vec3(v.z, v.x, v.y)), 6.0, 0.0, "");
     ASSERT_NEAR(insole_vec3_max_abs(insole_vec3(v.x, insole_abs(v.z), v.y)), 6.0, 0.0, "");

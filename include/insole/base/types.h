@@ -12,6 +12,12 @@
 #include "insole/base/quat.h"
 #include "insole/base/status.h"
 
+/** From one time stamp to a later one. */
+static inline insole_real_t insole_seconds(uint64_t from_us, uint64_t to_us)
+{
+    return (insole_real_t)(to_us - from_us) * INSOLE_R(1.0e-6);
+}
+
 /** A place on the map, or a way on it. */
 typedef struct {
     insole_real_t x_m, y_m;

@@ -77,6 +77,12 @@ static inline insole_real_t insole_vec3_norm(insole_vec3_t a)
     return insole_sqrt(insole_vec3_norm2(a));
 }
 
+/** Length of the part along x and y. */
+static inline insole_real_t insole_vec3_level(insole_vec3_t a)
+{
+    return insole_sqrt(a.x * a.x + a.y * a.y);
+}
+
 /** Largest magnitude among the three components. */
 static inline insole_real_t insole_vec3_max_abs(insole_vec3_t a)
 {
