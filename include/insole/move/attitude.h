@@ -25,7 +25,8 @@
  *          insole_heading_t heading = insole_heading(step.attitude, &step.attitude_cov_rad2);
  *
  *  The bias is learned at rest alone (zero attitude update, sense/still_bias.h): in motion it
- *  could not be told from turns.
+ *  could not be told from turns. What is not known of it is no part of P: `gyro_noise_rad_rts` has
+ *  to cover it over the walk.
  *
  *  SPDX-License-Identifier: MIT
  */
