@@ -81,6 +81,14 @@ typedef struct {
     insole_real_t sigma_rad;   /**< 1-sigma of the heading */
 } insole_start_t;
 
+/** One step as an accelerometer on the body feels it. */
+typedef struct {
+    uint64_t begin_us, end_us;      /**< peaks of |a|: of the step before, of this one */
+    insole_real_t peak_mps2;        /**< height of its peak over the mean of |a| */
+    insole_real_t range_mps2;       /**< largest - smallest smoothed |a| over the step */
+    insole_real_t accel_sigma_mps2; /**< scatter of |a|, not smoothed, over the step */
+} insole_footfall_t;
+
 /** One step of a walker whose phone counts steps. */
 typedef struct {
     uint64_t t_us;
