@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/place/map_search.h"
+
+#include <stddef.h>
+
+insole_status_t insole_map_search_begin(insole_map_search_t *search, const insole_radio_map_t *map,
+                                        const insole_trusted_area_t *area, int32_t readings_min,
+                                        insole_real_t age_max_s, const insole_rss_t *readings,
+                                        uint32_t count)
+{
+    if (!search || !map || !readings) {
+        return INSOLE_ERR_NULL;
+    }
+    if (area && insole_trusted_area_check(area) != INSOLE_OK) {
+        return INSOLE_ERR_VALUE;
+    }
+    uint32_t age_max_us = (uint32_t)(age_max_s * INSOLE_R(1e6));
+    if (insole_heard_passing(map->ap_count, age_max_us, readings, count) < (uint32_t)readings_min) {
+        return INSOLE_ERR_STATE;
+    }
+    insole_heard_gather(&search->heard, map->ap_count, age_max_us, readings, count);
+    search->has_area = area != NULL;
+    if (area) {
+        search->area = *area;
+    }
+    search->mixture = insole_spot_mixture_empty();
+    search->next = 0;
+    search->end = map->point_count;
+    search->in_work = true;
+    return INSOLE_OK;
+}
+
+bool insole_map_search_has_more(const insole_map_search_t *search)
+{
+    return search && search->in_work && search->next < search->end;
+}
+
+bool insole_map_search_next(insole_map_search_t *search, const insole_radio_map_t *map,
+                            uint32_t *budget, uint32_t *point)
+{
+    if (!insole_map_search_has_more(search) || search->end != map->point_count) {
+        return false;
+    }
+    while (*budget > 0u && search->next < search->end) {
+        uint32_t at = search->next++;
+        (*budget)--;
+        if (insole_radio_map_trusts(search->has_area ? &search->area : NULL, map->spots[at])) {
+            *point = at;
+            return true;
+        }
+    }
+    return false;
+}
+
+void insole_map_search_add(insole_map_search_t *search, const insole_radio_map_t *map,
+                           uint32_t point, insole_real_t log_weight)
+{
+    insole_spot_mixture_add(&search->mixture, point, map->spots[point], log_weight);
+}
+
+insole_status_t insole_map_search_finish(insole_map_search_t *search, const insole_radio_map_t *map)
+{
+    if (!search || !map) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!search->in_work || search->next < search->end || search->end != map->point_count ||
+        search->mixture.count == 0u) {
+        return INSOLE_ERR_STATE;
+    }
+    search->in_work = false;
+    return INSOLE_OK;
+}
