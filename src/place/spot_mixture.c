@@ -2,7 +2,6 @@
 #include "insole/place/spot_mixture.h"
 
 #define ZERO INSOLE_R(0.0)
-#define ONE  INSOLE_R(1.0)
 
 insole_spot_mixture_t insole_spot_mixture_empty(void)
 {
@@ -35,13 +34,14 @@ void insole_spot_mixture_add(insole_spot_mixture_t *mixture, uint32_t number, in
         crown(mixture, number, spot, log_weight);
     }
     insole_real_t w = insole_exp(log_weight - mixture->log_top);
+    insole_real_t before = mixture->weight;
     mixture->count++;
     mixture->weight += w;
     insole_real_t share = w / mixture->weight;
     insole_real_t x_m = spot.x_m - mixture->mean.x_m, y_m = spot.y_m - mixture->mean.y_m;
     mixture->mean.x_m += share * x_m; /* [PhoneEKF (26), (36)] [PhoneUKF (43)] */
     mixture->mean.y_m += share * y_m;
-    insole_real_t rest = w * (ONE - share);
+    insole_real_t rest = before * share;
     mixture->xx += rest * x_m * x_m;
     mixture->xy += rest * x_m * y_m;
     mixture->yy += rest * y_m * y_m;

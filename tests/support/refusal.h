@@ -43,7 +43,7 @@
         INSOLE_CONFIG_TYPE_##kind setting_ = config.name;                                          \
         config.name = INSOLE_CONFIG_LITERAL_##kind(low) - 1;                                       \
         ck_assert_msg(judge() == INSOLE_ERR_VALUE, "%s below its range", #name);                   \
-        config.name = 2 * INSOLE_CONFIG_LITERAL_##kind(high) + 1;                                  \
+        config.name = (high > 0 ? 2 : 1) * INSOLE_CONFIG_LITERAL_##kind(high) + 1;                                  \
         ck_assert_msg(judge() == INSOLE_ERR_VALUE, "%s above its range", #name);                   \
         SETTING_NAN_##kind(config.name, judge());                                                  \
         config.name = INSOLE_CONFIG_LITERAL_##kind(low);                                           \

@@ -20,7 +20,7 @@
 extern "C" {
 #endif
 
-enum { INSOLE_HEARD_MAX = 256 };
+enum { INSOLE_HEARD_MAX = 512 }; /**< what is beyond counts as unheard: room for a crowded mall */
 
 typedef struct {
     uint32_t count;

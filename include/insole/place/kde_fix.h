@@ -36,10 +36,10 @@ extern "C" {
     KEY(REAL, floor_dbm, -92.0, -127.0, -50.0, "dBm", "sorensen: a strength that counts nothing") \
     KEY(REAL, power, 1.5, 0.25, 4.0, "", "sorensen: of the strength above the floor")             \
     KEY(REAL, width, 0.02, 0.001, 1.0, "", "sorensen: distance that makes a weight e times less") \
-    KEY(REAL, sigma_db, 20.0, 0.5, 1000.0, "dB", "gauss: width of the kernel")                    \
+    KEY(REAL, sigma_db, 30.0, 0.5, 1000.0, "dB", "gauss: width of the kernel")                    \
     KEY(REAL, unheard_dbm, -95.0, -127.0, -50.0, "dBm", "gauss: what unheard counts as")          \
-    KEY(REAL, point_sigma_m, 2.0, 0.1, 100.0, "m", "1-sigma of the place of each fingerprint")    \
-    KEY(REAL, widen, 1.0, 0.1, 100.0, "", "factor on the variance of the fingerprints' places")   \
+    KEY(REAL, point_sigma_m, 3.0, 0.1, 100.0, "m", "1-sigma of the place of each fingerprint")    \
+    KEY(REAL, widen, 2.0, 0.1, 100.0, "", "factor on the variance of the fingerprints' places")   \
     KEY(CHOICE, offset, 0, 0, 1, "none|learn", "what this phone reads too strong")                \
     KEY(REAL, offset_max_db, 15.0, 0.1, 60.0, "dB", "largest offset learned")                     \
     KEY(REAL, learn_weight, 0.05, 0.001, 1.0, "", "least weight of a new scan in the offset")     \
