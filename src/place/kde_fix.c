@@ -30,9 +30,7 @@ insole_status_t insole_kde_fix_init(insole_kde_fix_t *kde, const insole_kde_fix_
     if (!(true INSOLE_KDE_FIX_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_kde_fix_t blank;
-    *kde = blank;
-    kde->config = *config;
+    *kde = (insole_kde_fix_t){.config = *config};
     for (uint32_t level = 0; level < (uint32_t)INSOLE_RADIO_LEVELS; level++) {
         kde->bent[level] = bend(config, level);
     }

@@ -21,9 +21,7 @@ insole_status_t insole_ml_fix_init(insole_ml_fix_t *ml, const insole_ml_fix_conf
     if (!(true INSOLE_ML_FIX_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_ml_fix_t blank;
-    *ml = blank;
-    ml->config = *config;
+    *ml = (insole_ml_fix_t){.config = *config};
     return INSOLE_OK;
 }
 
@@ -87,7 +85,7 @@ static insole_real_t smooth_count(const uint8_t *bins, insole_real_t silent, uin
 static insole_real_t log_of_histogram(const insole_ml_fix_t *ml, const insole_radio_map_t *map,
                                       uint32_t point, uint32_t entry, bool heard, insole_real_t dbm)
 {
-    const uint8_t *bins = &map->bins[entry * (uint32_t)INSOLE_RADIO_BINS];
+    const uint8_t *bins = &map->bins[(size_t)entry * INSOLE_RADIO_BINS];
     uint32_t count = insole_radio_map_heard(map, entry), bin = insole_radio_bin(dbm);
     uint32_t visits = map->visits ? map->visits[point] : count;
     insole_real_t silent = (insole_real_t)(visits - count), prior = ml->config.prior_count;

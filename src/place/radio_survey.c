@@ -241,7 +241,7 @@ static void move_entry(const insole_radio_map_memory_t *memory, uint32_t to, uin
         memory->counts[to] = memory->counts[from];
     }
     for (uint32_t i = 0; memory->bins && i < (uint32_t)BINS; i++) {
-        memory->bins[to * (uint32_t)BINS + i] = memory->bins[from * (uint32_t)BINS + i];
+        memory->bins[(size_t)to * BINS + i] = memory->bins[(size_t)from * BINS + i];
     }
 }
 
@@ -258,7 +258,7 @@ static void write_entry(const insole_radio_map_memory_t *memory, uint32_t at,
         memory->counts[at] = scaled_count(stat->count, visits);
     }
     for (uint32_t i = 0; memory->bins && i < (uint32_t)BINS; i++) {
-        memory->bins[at * (uint32_t)BINS + i] = scaled_count(stat->bins[i], visits);
+        memory->bins[(size_t)at * BINS + i] = scaled_count(stat->bins[i], visits);
     }
 }
 

@@ -1,12 +1,14 @@
 /** @file mall_fixes.c  Fixes from fingerprints on recorded walks: how far off, and do they know it.
  *
- *  usage: mall_fixes [--survey] [--late SECONDS] [--offset DB] [--spacing M] [--keep N] [KEY=VALUE]
+ *  usage: mall_fixes [--survey] [--late SECONDS] [--offset DB] [--spacing M] [--keep N]
+ *                    [--limit M] [KEY=VALUE]
  *
  *  Builds the radio map from the survey walks and prints each method's errors on the test walks: of
  *  each scan, against where the walker was when it was heard; at each waypoint, of the last fix.
  *  `--survey`: settings are chosen here, each sixth of the survey walks against the others, and no
  *  test walk is looked at. `--late`: a scan lies so much after it was heard. `--offset`: the test
- *  phone reads so much too strong. KEY is one of kde_fix. or ml_fix.
+ *  phone reads so much too strong. `--limit`: fails when the mean error at the waypoints of the
+ *  default method is larger. KEY is one of kde_fix. or ml_fix.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -31,7 +33,7 @@ static insole_radio_map_t map;
 
 typedef struct {
     bool survey_only;
-    double late_s, offset_db, spacing_m;
+    double late_s, offset_db, spacing_m, limit_m;
     uint32_t keep;
     insole_kde_fix_config_t kde;
     insole_ml_fix_config_t ml;
@@ -283,8 +285,14 @@ static void take_pair(options_t *options, const char *word)
 
 static options_t read_options(int argc, char **argv)
 {
-    options_t options = {
-        false, 0.0, 0.0, 2.0, UINT32_MAX, insole_kde_fix_defaults, insole_ml_fix_defaults};
+    options_t options = {false,
+                         0.0,
+                         0.0,
+                         2.5,
+                         HUGE_VAL,
+                         UINT32_MAX,
+                         insole_kde_fix_defaults,
+                         insole_ml_fix_defaults};
     for (int i = 1; i < argc; i++) {
         double number = i + 1 < argc ? strtod(argv[i + 1], NULL) : 0.0;
         if (strcmp(argv[i], "--survey") == 0) {
@@ -295,6 +303,8 @@ static options_t read_options(int argc, char **argv)
             options.offset_db = number;
         } else if (strcmp(argv[i], "--spacing") == 0) {
             options.spacing_m = number;
+        } else if (strcmp(argv[i], "--limit") == 0) {
+            options.limit_m = number;
         } else if (strcmp(argv[i], "--keep") == 0) {
             options.keep = (uint32_t)number;
         } else {
@@ -318,5 +328,5 @@ int main(int argc, char **argv)
         run_fold(&options, FOLDS);
     }
     print_table();
-    return EXIT_SUCCESS;
+    return mean_of(&methods[KDE].waypoints) <= options.limit_m ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -37,9 +37,9 @@ extern "C" {
     KEY(CHOICE, density, 0, 0, 1, "gauss|histogram", "of the strengths at a point")               \
     KEY(CHOICE, answer, 0, 0, 1, "likeliest|mean", "the point that fits best, or the mean of all") \
     KEY(REAL, unheard_dbm, -95.0, -127.0, -50.0, "dBm", "what unheard counts as")                 \
-    KEY(REAL, sigma_db, 8.0, 0.5, 50.0, "dB", "1-sigma of strengths, before the survey")          \
-    KEY(REAL, prior_count, 2.0, 0.01, 1000.0, "", "scans of the survey that this counts as")      \
-    KEY(REAL, independent, 0.05, 0.001, 1.0, "", "share of independent access points")            \
+    KEY(REAL, sigma_db, 12.0, 0.5, 50.0, "dB", "1-sigma of strengths, before the survey")          \
+    KEY(REAL, prior_count, 4.0, 0.01, 1000.0, "", "scans of the survey that this counts as")      \
+    KEY(REAL, independent, 0.1, 0.001, 1.0, "", "share of independent access points")            \
     KEY(REAL, point_sigma_m, 3.0, 0.1, 100.0, "m", "1-sigma of the place of each fingerprint")    \
     KEY(REAL, widen, 2.0, 0.1, 100.0, "", "factor on the variance of the fingerprints' places")   \
     KEY(INT, readings_min, 3, 1, 256, "", "readings a scan needs")                                \
