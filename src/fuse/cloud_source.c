@@ -7,6 +7,9 @@
 #define HALF INSOLE_R(0.5)
 #define ONE  INSOLE_R(1.0)
 
+/* Beyond, wide is wide; infinity may be among it. */
+#define WIDE_MAX INSOLE_R(1e6)
+
 enum { ATTEMPTS = 8 };
 
 insole_cloud_source_t insole_cloud_source(const insole_cloud_fix_t *fix, insole_real_t sigma_scale)
@@ -63,6 +66,14 @@ static insole_real_t mixed(insole_real_t own, insole_real_t other, insole_real_t
     return own + share * (other - own);
 }
 
+insole_real_t insole_cloud_source_width(const insole_cloud_source_t *source, insole_real_t sigma_m,
+                                        insole_real_t sigma_rad)
+{
+    insole_real_t wide = HALF * (source->var_x_m2 + source->var_y_m2) / insole_square(sigma_m) +
+                         insole_square(source->sigma_offset_rad / sigma_rad);
+    return wide < WIDE_MAX ? wide / (ONE + wide) : ONE;
+}
+
 void insole_cloud_source_mix(insole_cloud_source_t *source, const insole_cloud_source_t *other,
                              insole_real_t share)
 {
@@ -111,4 +122,21 @@ void insole_cloud_source_draw(const insole_cloud_source_t *source, insole_partic
             particle->log_weight = ZERO;
         }
     }
+}
+
+void insole_cloud_source_spread(const insole_cloud_source_t *source, insole_real_t share,
+                                insole_particle_t *particle, const insole_floor_plan_t *plan,
+                                insole_rng_t *rng)
+{
+    insole_real_t x, y, turn, spare;
+    insole_rng_normals(rng, &x, &y);
+    insole_rng_normals(rng, &turn, &spare);
+    x = particle->x_m + share * insole_sqrt(source->var_x_m2) * x;
+    y = particle->y_m + share * insole_sqrt(source->var_y_m2) * y;
+    if (!plan || !insole_floor_plan_crosses(plan, particle->x_m, particle->y_m, x, y)) {
+        particle->x_m = x;
+        particle->y_m = y;
+    }
+    particle->offset_rad =
+        insole_wrap_pi(particle->offset_rad + share * source->sigma_offset_rad * turn);
 }

@@ -15,19 +15,6 @@
 /* After so many deaths of all the cloud is as wide as it gets. */
 #define DEATHS_MAX 6u
 
-const insole_particle_filter_config_t insole_particle_filter_defaults = {
-    INSOLE_PARTICLE_FILTER_KEYS(INSOLE_CONFIG_DEFAULT){
-        INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_DEFAULT)}};
-
-const insole_particle_filter_config_t insole_particle_filter_two_order = {
-    .sigma_length_m = INSOLE_R(0.1),
-    .turn_share = INSOLE_R(0.2),
-    .scale_memory = ONE,
-    .walls = INSOLE_WALLS_INSIDE,
-    .resample_share = HALF,
-    .recover_sigma_m = HALF,
-    .field = {INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_DEFAULT)}};
-
 static insole_status_t refuse(insole_particle_filter_t *filter, insole_status_t status)
 {
     filter->counts.refused++;
@@ -38,12 +25,9 @@ insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
                                             const insole_particle_filter_config_t *config,
                                             uint64_t seed)
 {
-    if (!filter || !config) {
-        return INSOLE_ERR_NULL;
-    }
-    if (!(true INSOLE_PARTICLE_FILTER_KEYS(INSOLE_CONFIG_IN_RANGE)) ||
-        insole_rss_field_check(&config->field) != INSOLE_OK) {
-        return INSOLE_ERR_VALUE;
+    insole_status_t status = insole_particle_config_check(config);
+    if (!filter || status != INSOLE_OK) {
+        return filter ? status : INSOLE_ERR_NULL;
     }
     *filter = (insole_particle_filter_t){.config = *config};
     filter->weighing.walls = (insole_walls_t)config->walls;
@@ -60,13 +44,18 @@ static bool is_start(const insole_particle_start_t *start)
            start->sigma_m <= SIGMA_MAX_M && start->sigma_offset_rad >= ZERO;
 }
 
+static void begin_phase(insole_particle_filter_t *filter, insole_particle_phase_t phase)
+{
+    filter->next = 0;
+    filter->phase = phase;
+    insole_weighing_begin(&filter->weighing);
+}
+
 static void begin_drawing(insole_particle_filter_t *filter, const insole_cloud_source_t *source)
 {
     filter->source = *source;
     filter->anywhere = false;
-    filter->next = 0;
-    filter->phase = INSOLE_PARTICLES_DRAW;
-    insole_weighing_begin(&filter->weighing);
+    begin_phase(filter, INSOLE_PARTICLES_DRAW);
 }
 
 insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
@@ -76,22 +65,18 @@ insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
     if (!filter) {
         return INSOLE_ERR_NULL;
     }
-    insole_status_t status = insole_cloud_check(cloud);
-    if (status != INSOLE_OK || !start) {
-        return refuse(filter, status != INSOLE_OK ? status : INSOLE_ERR_NULL);
+    insole_status_t status = start ? insole_cloud_check(cloud) : INSOLE_ERR_NULL;
+    if (status != INSOLE_OK || !is_start(start)) {
+        return refuse(filter, status != INSOLE_OK ? status : INSOLE_ERR_VALUE);
     }
-    if (!is_start(start)) {
-        return refuse(filter, INSOLE_ERR_VALUE);
-    }
-    insole_real_t var_m2 = start->sigma_m * start->sigma_m;
-    insole_cloud_source_t source = {.x_m = start->x_m,
-                                    .y_m = start->y_m,
-                                    .var_x_m2 = var_m2,
-                                    .var_y_m2 = var_m2,
-                                    .offset_rad = insole_wrap_pi(start->offset_rad),
-                                    .sigma_offset_rad = start->sigma_offset_rad,
-                                    .scale = ONE,
-                                    .sigma_scale = filter->config.sigma_scale};
+    insole_cloud_fix_t known = {.x_m = start->x_m,
+                                .y_m = start->y_m,
+                                .var_x_m2 = insole_square(start->sigma_m),
+                                .var_y_m2 = insole_square(start->sigma_m),
+                                .offset_rad = insole_wrap_pi(start->offset_rad),
+                                .scale = ONE};
+    insole_cloud_source_t source = insole_cloud_source(&known, filter->config.sigma_scale);
+    source.sigma_offset_rad = start->sigma_offset_rad;
     insole_evidence_clear(&filter->weighing.news);
     filter->count = cloud->count;
     filter->has_fix = false;
@@ -105,15 +90,15 @@ insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
 static void take_stride(insole_particle_filter_t *filter, const insole_evidence_t *news)
 {
     const insole_particle_filter_config_t *config = &filter->config;
-    insole_real_t memory = config->scale_memory;
     insole_cloud_stride_t stride = {
         .length_m = news->length_m,
         .sigma_length_m = config->sigma_length_m,
         .heading_rad = news->heading_rad,
         .sigma_heading_rad = config->turn_share * insole_abs(news->turn_rad),
         .sigma_wander_rad = config->sigma_wander_rad,
-        .scale_memory = memory,
-        .sigma_scale = config->sigma_scale * insole_sqrt(ONE - memory * memory)};
+        .scale_memory = config->scale_memory,
+        .sigma_scale =
+            config->sigma_scale * insole_sqrt(ONE - insole_square(config->scale_memory))};
     filter->weighing.stride = stride;
     filter->since_start++;
     filter->counts.strides++;
@@ -159,9 +144,10 @@ insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
                       insole_rss_field_hear(&filter->field, building, news->readings,
                                             news->reading_count) == INSOLE_OK &&
                       lay_field(filter);
-    filter->next = 0;
-    filter->phase = INSOLE_PARTICLES_MOVE;
-    insole_weighing_begin(&filter->weighing);
+    filter->is_blind = building && !building->plan;
+    filter->weighing.scan_power =
+        insole_particle_config_scan_power(&filter->config, &filter->reach, filter->is_blind);
+    begin_phase(filter, INSOLE_PARTICLES_MOVE);
     return INSOLE_OK;
 }
 
@@ -222,9 +208,19 @@ static void point_elsewhere(insole_particle_filter_t *filter)
     filter->counts.redrawn++;
 }
 
+insole_real_t insole_particle_filter_misfit(const insole_particle_filter_t *filter)
+{
+    if (!filter) {
+        return ZERO;
+    }
+    insole_real_t power = filter->is_blind ? filter->config.blind_power : ONE;
+    return power * filter->field.elsewhere_likelier;
+}
+
 static void begin_finish(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
 {
-    filter->next = filter->redraw_every > 0 || cloud->past_strides > 0 ? 0 : filter->count;
+    bool visits = filter->redraw_every > 0 || cloud->past_strides > 0 || filter->spreads;
+    filter->next = visits ? 0 : filter->count;
     filter->phase = INSOLE_PARTICLES_FINISH;
 }
 
@@ -235,8 +231,9 @@ static void end_sum(insole_particle_filter_t *filter, const insole_cloud_t *clou
     filter->has_fix = true;
     filter->reach = insole_cloud_source(&filter->fix, config->sigma_scale);
     filter->redraw_every = 0;
+    filter->spreads = false;
     if (filter->weighing.news.has_scan && config->redraw_share > ZERO &&
-        filter->field.elsewhere_likelier > config->redraw_margin) {
+        insole_particle_filter_misfit(filter) > config->redraw_margin) {
         point_elsewhere(filter);
     }
     if (filter->redraw_every > 0 ||
@@ -244,6 +241,7 @@ static void end_sum(insole_particle_filter_t *filter, const insole_cloud_t *clou
         insole_cloud_resample_begin(&filter->comb, &filter->sum, filter->count,
                                     insole_rng_uniform(&filter->rng));
         filter->counts.resampled++;
+        filter->spreads = config->spread_share > ZERO;
         filter->phase = INSOLE_PARTICLES_RESAMPLE;
     } else {
         begin_finish(filter, cloud);
@@ -254,6 +252,11 @@ static void finish_one(insole_particle_filter_t *filter, const insole_cloud_t *c
                        const insole_floor_plan_t *plan)
 {
     insole_particle_t *particle = &cloud->particles[filter->next];
+    if (filter->spreads) {
+        insole_cloud_source_t own =
+            insole_cloud_source(&filter->fix, ZERO); /* `reach` holds more */
+        insole_cloud_source_spread(&own, filter->config.spread_share, particle, plan, &filter->rng);
+    }
     if (filter->redraw_every > 0 && filter->next % filter->redraw_every == 0) {
         insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
         particle->log_weight =
@@ -311,9 +314,7 @@ static void end_phase(insole_particle_filter_t *filter, const insole_cloud_t *cl
         if (filter->weighing.news.has_scan) {
             filter->phase = INSOLE_PARTICLES_FIELD;
             break;
-        }
-        end_weighing(filter, cloud);
-        break;
+        } /* fall through */
     case INSOLE_PARTICLES_WEIGH:
         end_weighing(filter, cloud);
         break;

@@ -65,7 +65,7 @@ void insole_weighing_weigh(insole_weighing_t *weighing, const insole_rss_field_t
         particle->log_weight += insole_evidence_log_weight(news, particle->x_m, particle->y_m);
     }
     if (news->has_scan) {
-        particle->log_weight += log_of_scan(weighing, field, particle);
+        particle->log_weight += weighing->scan_power * log_of_scan(weighing, field, particle);
     }
     insole_weighing_note(weighing, particle, number);
 }

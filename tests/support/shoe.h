@@ -11,6 +11,7 @@
 
 #include <string.h>
 
+#include "fixes.h"
 #include "insole/track/foot_tracker.h"
 #include "near.h"
 #include "walk_samples.h"
@@ -101,30 +102,6 @@ static inline const insole_fix_t *fix_at(double t_s)
         i++;
     }
     return &fixes[i];
-}
-
-/** Bit for bit, whatever lies between the fields. */
-static inline bool is_same_fix(const insole_fix_t *a, const insole_fix_t *b)
-{
-    return a->t_us == b->t_us && a->state == b->state &&
-           memcmp(&a->position_m, &b->position_m, sizeof a->position_m) == 0 &&
-           memcmp(&a->heading_rad, &b->heading_rad, sizeof a->heading_rad) == 0 &&
-           memcmp(&a->var_x_m2, &b->var_x_m2, sizeof a->var_x_m2) == 0 &&
-           memcmp(&a->cov_xy_m2, &b->cov_xy_m2, sizeof a->cov_xy_m2) == 0 &&
-           memcmp(&a->var_y_m2, &b->var_y_m2, sizeof a->var_y_m2) == 0 &&
-           memcmp(&a->var_z_m2, &b->var_z_m2, sizeof a->var_z_m2) == 0 &&
-           memcmp(&a->var_heading_rad2, &b->var_heading_rad2, sizeof a->var_heading_rad2) == 0;
-}
-
-/** Every number finite, no variance below zero. */
-static inline bool is_sane_fix(const insole_fix_t *f)
-{
-    return insole_vec3_is_finite(f->position_m) && insole_is_finite(f->heading_rad) &&
-           insole_is_finite(f->var_x_m2) && insole_is_finite(f->cov_xy_m2) &&
-           insole_is_finite(f->var_y_m2) && insole_is_finite(f->var_z_m2) &&
-           insole_is_finite(f->var_heading_rad2) && f->var_x_m2 >= INSOLE_R(0.0) &&
-           f->var_y_m2 >= INSOLE_R(0.0) && f->var_z_m2 >= INSOLE_R(0.0) &&
-           f->var_heading_rad2 >= INSOLE_R(0.0);
 }
 
 #endif

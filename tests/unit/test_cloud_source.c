@@ -261,6 +261,81 @@ START_TEST(a_mixture_has_the_moments_of_both)
 }
 END_TEST
 
+static const struct {
+    double xx, yy, offset, sigma_m, sigma_rad, width;
+} width_rows[] = {{0.0, 0.0, 0.0, 2.0, 0.5, 0.0},     {4.0, 4.0, 0.0, 2.0, 0.5, 0.5},
+                  {8.0, 0.0, 0.0, 2.0, 0.5, 0.5},     {0.0, 0.0, 0.5, 2.0, 0.5, 0.5},
+                  {4.0, 4.0, 0.5, 2.0, 0.5, 2.0 / 3}, {36.0, 36.0, 0.0, 2.0, 0.5, 0.9},
+                  {1e30, 1.0, 0.0, 2.0, 0.5, 1.0},    {0.0, 0.0, 3e38, 2.0, 0.01, 1.0}};
+
+START_TEST(its_width_is_beside_what_is_told)
+{
+    insole_cloud_source_t s = source_at(0.0, 0.0, width_rows[_i].xx, 0.0, width_rows[_i].yy);
+    s.sigma_offset_rad = (insole_real_t)width_rows[_i].offset;
+    ASSERT_NEAR(insole_cloud_source_width(&s, (insole_real_t)width_rows[_i].sigma_m,
+                                          (insole_real_t)width_rows[_i].sigma_rad),
+                width_rows[_i].width, 1e-6, "");
+}
+END_TEST
+
+/* Each of three by its own sigma and the share, independently; scale and weight stay. */
+START_TEST(copies_go_aside_by_a_share)
+{
+    enum { N = 40000 };
+    insole_cloud_source_t s = source_at(90.0, 90.0, 4.0, 1.0, 0.25);
+    s.sigma_offset_rad = INSOLE_R(0.2);
+    moments_t m = {0, 0, 0, 0, 0};
+    double turned2 = 0.0, leaning = 0.0;
+    insole_rng_seed(&rng, 6u);
+    for (int i = 0; i < N; i++) {
+        insole_particle_t p = {3, 4, 1, INSOLE_R(1.1), INSOLE_R(-0.7)};
+        insole_cloud_source_spread(&s, INSOLE_R(0.5), &p, NULL, &rng);
+        double turned = (double)p.offset_rad - 1.0;
+        take(&m, (double)p.x_m - 3.0, (double)p.y_m - 4.0, 1.0 / N);
+        turned2 += turned * turned / N;
+        leaning += turned * ((double)p.x_m - 3.0) / N;
+        ck_assert(p.scale == INSOLE_R(1.1) && p.log_weight == INSOLE_R(-0.7));
+    }
+    ASSERT_NEAR(m.x, 0.0, 0.02, "m");
+    ASSERT_NEAR(m.y, 0.0, 0.005, "m");
+    ASSERT_NEAR(m.xx, 1.0, 0.03, "m2");
+    ASSERT_NEAR(m.xy, 0.0, 0.01, "m2");
+    ASSERT_NEAR(m.yy, 0.0625, 0.002, "m2");
+    ASSERT_NEAR(turned2, 0.01, 0.0003, "rad2");
+    ASSERT_NEAR(leaning, 0.0, 0.002, "m rad");
+}
+END_TEST
+
+/* In a random building: a place that moved has no wall between; one that did not would have met
+ * one. */
+START_TEST(no_copy_goes_through_a_wall)
+{
+    uint32_t stayed = 0;
+    insole_rng_seed(&rng, 7u);
+    draw_random(&drawing, &rng, 60);
+    ck_assert_int_eq(draw_build(&drawing), INSOLE_OK);
+    insole_cloud_source_t s = source_at(0.0, 0.0, 4.0, 0.0, 4.0);
+    s.sigma_offset_rad = INSOLE_R(0.1);
+    for (int i = 0; i < 5000; i++) {
+        insole_particle_t p = {(insole_real_t)draw_uniform(&rng, 0.0, 40.0),
+                               (insole_real_t)draw_uniform(&rng, 0.0, 30.0), 0, 1, 0};
+        insole_particle_t before = p, free = p;
+        insole_rng_t same = rng;
+        insole_cloud_source_spread(&s, 1, &free, NULL, &same);
+        insole_cloud_source_spread(&s, 1, &p, &drawing.plan, &rng);
+        segment_t way = {(double)before.x_m, (double)before.y_m, (double)free.x_m,
+                         (double)free.y_m};
+        double clear = drawing_distance(&drawing, way);
+        bool moved = p.x_m != before.x_m || p.y_m != before.y_m;
+        ck_assert(clear < 2.0 * (double)INSOLE_FLOOR_PLAN_TOUCH_M || moved);
+        ck_assert(clear > 0.0 || !moved);
+        ck_assert(p.offset_rad == free.offset_rad);
+        stayed += moved ? 0u : 1u;
+    }
+    ASSERT_AT_LEAST(stayed, 500, "of 5000");
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("cloud_source");
@@ -275,5 +350,9 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "turn", its_turn_is_the_mean_turn, 4);
     suite_add(suite, "widen", widening_adds_variances);
     suite_add_loop(suite, "mix", a_mixture_has_the_moments_of_both, 4);
+    suite_add_loop(suite, "width", its_width_is_beside_what_is_told,
+                   sizeof width_rows / sizeof width_rows[0]);
+    suite_add(suite, "aside", copies_go_aside_by_a_share);
+    suite_add(suite, "aside a wall", no_copy_goes_through_a_wall);
     return suite;
 }

@@ -414,6 +414,10 @@ static const struct {
 START_TEST(the_lattice_grows_with_what_is_not_known)
 {
     begin(18u, 4);
+    insole_rss_field_config_t config = insole_rss_field_defaults;
+    config.spacing_m = 1;
+    config.cover = INSOLE_R(1.5);
+    ck_assert_int_eq(insole_rss_field_init(&field, &config), INSOLE_OK);
     radio_listen(&radio, &rng, 20.0, 15.0, 1.0, 4.0, 4, readings);
     hear(4);
     lay(around(20.0, 15.0, sigmas[_i].sigma_m, 0.0));

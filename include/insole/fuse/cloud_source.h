@@ -42,6 +42,10 @@ void insole_cloud_source_walk(insole_cloud_source_t *source, const insole_cloud_
 void insole_cloud_source_widen(insole_cloud_source_t *source, insole_real_t sigma_m,
                                insole_real_t sigma_rad);
 
+/** How wide it is beside such 1-sigmas, > 0: 0 far narrower, 1/2 as wide, 1 far wider. */
+insole_real_t insole_cloud_source_width(const insole_cloud_source_t *source, insole_real_t sigma_m,
+                                        insole_real_t sigma_rad);
+
 /** Takes in a share (0 .. 1) of another: mean and covariance of place become those of the mixture;
  *  offset and scale stay. */
 void insole_cloud_source_mix(insole_cloud_source_t *source, const insole_cloud_source_t *other,
@@ -52,6 +56,14 @@ void insole_cloud_source_mix(insole_cloud_source_t *source, const insole_cloud_s
  *  @param plan  NULL: it may be anywhere */
 void insole_cloud_source_draw(const insole_cloud_source_t *source, insole_particle_t *particle,
                               const insole_floor_plan_t *plan, insole_rng_t *rng);
+
+/** Moves a copy aside, by a normal share of what is not known: copies that stay together tell no
+ *  more than one. Its place stays when a wall stands in the way.
+ *  @param share  of each 1-sigma
+ *  @param plan   NULL: no walls */
+void insole_cloud_source_spread(const insole_cloud_source_t *source, insole_real_t share,
+                                insole_particle_t *particle, const insole_floor_plan_t *plan,
+                                insole_rng_t *rng);
 
 #ifdef __cplusplus
 }

@@ -30,49 +30,14 @@
 #ifndef INSOLE_FUSE_PARTICLE_FILTER_H
 #define INSOLE_FUSE_PARTICLE_FILTER_H
 
-#include "insole/base/config.h"
 #include "insole/fuse/cloud_source.h"
+#include "insole/fuse/particle_config.h"
 #include "insole/fuse/weighing.h"
 #include "insole/place/rss_field.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* clang-format off */
-#define INSOLE_PARTICLE_FILTER_KEYS(KEY)                                                          \
-    KEY(REAL, sigma_length_m, 0.03, 0.0, 10.0, "m", "sigma_s of (32), length of a stride")        \
-    KEY(REAL, turn_share, 0.0, 0.0, 10.0, "",                                                     \
-        "sigma_psi of (32), as a share of the turn from stride to stride")                        \
-    KEY(REAL, sigma_wander_rad, 0.021, 0.0, 3.0, "rad",                                           \
-        "1-sigma of the offset's change in a stride")                                             \
-    KEY(REAL, sigma_scale, 0.02, 0.0, 1.0, "", "1-sigma of the scale of strides; 0 = none")       \
-    KEY(REAL, scale_memory, 0.99, 0.0, 1.0, "",                                                   \
-        "share of a particle's scale that stays from stride to stride")                           \
-    KEY(CHOICE, walls, 2, 0, 2, "off|inside|crosses", "what a plan kills a particle for")         \
-    KEY(REAL, resample_share, 0.5, 0.0, 1.0, "",                                                  \
-        "resampled when the effective number is a smaller share of all; 0 = never")               \
-    KEY(REAL, redraw_share, 0.1, 0.0, 0.5, "",                                                    \
-        "share of the cloud drawn where scans point when they point elsewhere; 0 = none")         \
-    KEY(REAL, redraw_margin, 0.15, 0.0, 100.0, "",                                                \
-        "how much likelier scans must be elsewhere, in logarithms")                               \
-    KEY(REAL, redraw_offset_rad, 0.35, 0.0, 3.1, "rad", "1-sigma of the offset of those drawn")   \
-    KEY(REAL, recover_sigma_m, 0.5, 0.01, 100.0, "m",                                             \
-        "1-sigma added when all have died; twice as much each time")                              \
-    KEY(REAL, recover_offset_rad, 0.09, 0.0, 3.1, "rad", "the same for the offset")               \
-    KEY(REAL, wide_offset_rad, 0.6, 0.0, 3.1, "rad",                                              \
-        "with a larger 1-sigma of the offset the direction counts as unknown to the radio")
-/* clang-format on */
-
-typedef struct {
-    INSOLE_PARTICLE_FILTER_KEYS(INSOLE_CONFIG_MEMBER)
-    insole_rss_field_config_t field;
-} insole_particle_filter_config_t;
-
-extern const insole_particle_filter_config_t insole_particle_filter_defaults;
-
-/** The paper's second stage as printed: no offset, no scale, (40) at the end of a stride. */
-extern const insole_particle_filter_config_t insole_particle_filter_two_order;
 
 /** What is known at the start. */
 typedef struct {
@@ -114,6 +79,7 @@ typedef struct {
     insole_weighing_t weighing; /**< what is being worked in */
 
     insole_particle_phase_t phase;
+    bool is_blind; /**< no plan tells of walls */
     bool anywhere; /**< the plan is not asked: nothing walkable was found */
     uint32_t next; /**< particle */
     insole_cloud_sum_t sum;
@@ -121,6 +87,7 @@ typedef struct {
     insole_cloud_source_t source; /**< of what is being drawn */
     insole_cloud_source_t reach;  /**< where the cloud is now */
     uint32_t redraw_every;        /**< every so many are drawn anew; 0: none */
+    bool spreads;                 /**< copies have been made */
     uint32_t deaths;              /**< of the whole cloud, less the strides survived since */
     insole_rss_field_t field;
 } insole_particle_filter_t;
@@ -150,6 +117,10 @@ insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
  *  @return true while work is left */
 bool insole_particle_filter_work(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
                                  const insole_building_t *building, uint32_t particles);
+
+/** How much likelier the last scans are where they point than where the cloud is, in logarithms:
+ *  > 0 casts doubt on the cloud. */
+insole_real_t insole_particle_filter_misfit(const insole_particle_filter_t *filter);
 
 /** Where the ancestors of the present cloud were some strides ago: the position then, by all that
  *  is known now. The cloud must have kept its past.

@@ -6,7 +6,7 @@
  *  A weighing is filled in by who knows; then each particle walks, and is weighed once the radio is
  *  computed where particles need it.
  *
- *      insole_weighing_t weighing = {.walls = INSOLE_WALLS_CROSSES, .news = news};
+ *      insole_weighing_t weighing = {.walls = INSOLE_WALLS_CROSSES, .news = news, .scan_power = 1};
  *      insole_weighing_begin(&weighing);
  *      for each particle i:
  *          insole_weighing_move(&weighing, &field, &plan, &particle[i], &rng);
@@ -39,6 +39,7 @@ typedef struct {
     insole_walls_t walls;
     insole_evidence_t news;       /**< ways walked since are in m */
     insole_cloud_stride_t stride; /**< the last one; walked when `news` tells of a stride */
+    insole_real_t scan_power;     /**< of the likelihood of the scan */
     insole_real_t common_log;     /**< taken off all weights, so that they stay near 0 */
     insole_real_t heaviest_log;   /**< largest weight so far */
     uint32_t heaviest;            /**< whose it is */

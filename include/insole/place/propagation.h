@@ -48,7 +48,7 @@ enum { INSOLE_TAIL_GAUSS = 0, INSOLE_TAIL_STUDENT = 1 };
     KEY(REAL, sigma_db, 6.0, 0.1, 50.0, "dB", "1-sigma of a reading about its expectation")       \
     KEY(CHOICE, tail, 1, 0, 1, "gauss|student", "how likely large deviations are")                \
     KEY(REAL, tail_dof, 3.0, 0.5, 1000.0, "", "degrees of freedom of the student tail")           \
-    KEY(REAL, power, 0.25, 0.001, 1.0, "",                                                        \
+    KEY(REAL, power, 0.12, 0.001, 1.0, "",                                                        \
         "of a reading's likelihood: readings err alike; 1 = as if they did not")
 /* clang-format on */
 
