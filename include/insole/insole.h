@@ -26,6 +26,7 @@
 #include "insole/fuse/cloud_source.h"
 #include "insole/fuse/evidence.h"
 #include "insole/fuse/particle_cloud.h"
+#include "insole/fuse/particle_config.h"
 #include "insole/fuse/particle_filter.h"
 #include "insole/fuse/weighing.h"
 #include "insole/move/attitude.h"
@@ -62,8 +63,11 @@
 #include "insole/sense/zero_velocity.h"
 #include "insole/track/foot_anchor.h"
 #include "insole/track/foot_config.h"
+#include "insole/track/foot_fusion.h"
+#include "insole/track/foot_late.h"
 #include "insole/track/foot_smooth.h"
 #include "insole/track/foot_tracker.h"
 #include "insole/track/foot_walk.h"
+#include "insole/track/fusion_radio.h"
 
 #endif

@@ -1,0 +1,151 @@
+/** @file foot_fusion.h  From a shoe's IMU, radio and a floor plan to positions: the second order.
+ *
+ *  foot_tracker -> strides -> particle_filter <- walls, signal strengths, ranges
+ *
+ *  Source  [TwoOrder] 3.2: the stage as printed (`two-order`), the propagation model alone
+ *          (`wifi`), and ours (`best`).
+ *  Frames  m: map. What the inertial filter calls north is found on the way.
+ *
+ *      static insole_particle_t particles[500];
+ *      static insole_foot_fusion_t shoe;
+ *      insole_fusion_memory_t memory = {particles, 500, NULL, 0, NULL, 0};
+ *      insole_foot_fusion_init(&shoe, &insole_foot_fusion_defaults, &memory, &building, seed);
+ *      on each sample:   insole_foot_fusion_imu(&shoe, &imu);
+ *                        while (insole_foot_fusion_next(&shoe, &fix) == INSOLE_OK) use(&fix);
+ *      on each scan:     insole_foot_fusion_scan(&shoe, &scan);
+ *      in idle time:     while (insole_foot_fusion_work(&shoe, 50)) {}
+ *
+ *  Between strides the position moves on with the inertial filter. The memory and the building are
+ *  the caller's and must stay where they are. Without plan and access points `best` is the first
+ *  order alone.
+ *
+ *  Radio may be told as soon as it comes: it waits until the inertial filter, whose detector looks
+ *  ahead, has come to its time. `wifi` knows of radio alone: a fix for each scan, at once.
+ *
+ *  With `lag_s` each fix leaves so much later, at where the ancestors of the cloud of then were.
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_TRACK_FOOT_FUSION_H
+#define INSOLE_TRACK_FOOT_FUSION_H
+
+#include "insole/fuse/particle_filter.h"
+#include "insole/track/foot_late.h"
+#include "insole/track/foot_tracker.h"
+#include "insole/track/fusion_radio.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum {
+    INSOLE_FUSION_BEST = 0,      /**< whatever is given is used as well as we know how */
+    INSOLE_FUSION_TWO_ORDER = 1, /**< the paper's second stage as printed */
+    INSOLE_FUSION_WIFI = 2       /**< radio alone */
+} insole_foot_fusion_method_t;
+
+/* clang-format off */
+#define INSOLE_FOOT_FUSION_KEYS(KEY)                                                              \
+    KEY(CHOICE, method, 0, 0, 2, "best|two-order|wifi", "what makes the position")                \
+    KEY(REAL, lag_s, 0.0, 0.0, 60.0, "s",                                                         \
+        "each position is told so late, smoothed by what came after; 0 = at once")                \
+    KEY(REAL, sigma_inertial_m, 1.0, 0.01, 100.0, "m",                                            \
+        "two-order: sigma_1 of (34), how far the inertial position is trusted")                   \
+    KEY(REAL, sigma_range_m, 2.0, 0.01, 100.0, "m",                                               \
+        "two-order: sigma_2 of (39), of a range from signal strength")                            \
+    KEY(REAL, unsure_start_m, 0.5, 0.0, 100.0, "m",                                               \
+        "1-sigma added to a start that radio has found")                                          \
+    KEY(REAL, search_sigma_m, 1.0, 0.1, 1000.0, "m",                                              \
+        "a cloud with a larger 1-sigma is still searching")                                       \
+    KEY(REAL, search_margin, 0.05, 0.0, 100.0, "",                                                \
+        "so is one when scans are so much likelier elsewhere, in logarithms")
+/* clang-format on */
+
+typedef struct {
+    INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_MEMBER)
+    insole_foot_tracker_config_t foot;
+    insole_particle_filter_config_t particles;
+    insole_particle_filter_config_t two_order; /**< those of the paper */
+    insole_rss_fix_config_t rss_fix;
+    insole_range_fix_config_t range_fix;
+} insole_foot_fusion_config_t;
+
+extern const insole_foot_fusion_config_t insole_foot_fusion_defaults;
+
+/** What the caller lends. */
+typedef struct {
+    insole_particle_t *particles;
+    uint32_t count;
+    insole_spot_t *past;     /**< count x past_strides, for `lag_s`; NULL: no lag */
+    uint32_t past_strides;   /**< as many as a walker makes in `lag_s`, and two more */
+    insole_late_row_t *late; /**< as many as samples come in `lag_s`; NULL: no lag */
+    uint32_t late_count;
+} insole_fusion_memory_t;
+
+typedef struct {
+    uint32_t starts;  /**< times the particles were drawn */
+    uint32_t refused; /**< calls answered with a negative status that tells of an error */
+} insole_foot_fusion_counts_t;
+
+typedef struct {
+    insole_foot_fusion_config_t config;
+    insole_foot_fusion_counts_t counts;
+    insole_foot_tracker_t foot;
+    insole_particle_filter_t particles;
+    insole_fusion_memory_t memory;
+    const insole_building_t *building;
+
+    insole_fusion_radio_t radio;
+
+    insole_evidence_t news;        /**< what the particles are told */
+    bool is_told;                  /**< a start that was told has been reached */
+    bool wants_start;              /**< a start is told, and not yet used */
+    bool working;                  /**< the particles have work left */
+    bool has_stride;               /**< strides wait for the particles */
+    insole_real_t stride_turn_rad; /**< the foot's turn over them */
+    insole_spot_t told_n_m;        /**< n, where the stride told last ended */
+    insole_spot_t fixed_n_m;       /**< n, where the foot was at the particles' last fix */
+
+    insole_foot_late_t late;
+    bool finished;
+} insole_foot_fusion_t;
+
+/** @param building  NULL: nothing is known of it
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range or no particles */
+insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion,
+                                        const insole_foot_fusion_config_t *config,
+                                        const insole_fusion_memory_t *memory,
+                                        const insole_building_t *building, uint64_t seed);
+
+/** As insole_foot_tracker_start. Without any start the first scan tells where to begin. */
+insole_status_t insole_foot_fusion_start(insole_foot_fusion_t *fusion, const insole_start_t *start);
+
+/** The sample call, as insole_foot_tracker_imu. */
+insole_status_t insole_foot_fusion_imu(insole_foot_fusion_t *fusion, const insole_imu_t *imu);
+
+/** A scan. Its readings are copied, the strongest of known access points.
+ *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE without access points, or when a fix of `wifi` waits
+ */
+insole_status_t insole_foot_fusion_scan(insole_foot_fusion_t *fusion, const insole_scan_t *scan);
+
+/** Ranges of one moment.
+ *  @return as insole_foot_fusion_scan */
+insole_status_t insole_foot_fusion_ranges(insole_foot_fusion_t *fusion,
+                                          const insole_range_t *ranges, uint32_t count);
+
+/** The next fix, as insole_foot_tracker_next.
+ *  @return INSOLE_ERR_STATE when none is ready */
+insole_status_t insole_foot_fusion_next(insole_foot_fusion_t *fusion, insole_fix_t *fix);
+
+/** The work call: at most `particles` particles' worth.
+ *  @return true while work is left */
+bool insole_foot_fusion_work(insole_foot_fusion_t *fusion, uint32_t particles);
+
+/** No more samples will come: all that is held leaves through insole_foot_fusion_next. */
+insole_status_t insole_foot_fusion_finish(insole_foot_fusion_t *fusion);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

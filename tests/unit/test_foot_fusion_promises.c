@@ -1,0 +1,459 @@
+/* SPDX-License-Identifier: MIT */
+#include "fusion_walk.h"
+#include "insole/base/snapshot.h"
+#include "insole/track/foot_fusion.h"
+#include "refusal.h"
+#include "suite.h"
+
+/* What holds whatever is told. */
+
+static insole_fix_t reference[FUSION_SAMPLES];
+static insole_foot_fusion_t before, other;
+static insole_foot_fusion_config_t config;
+
+static uint32_t run_reference(const fusion_case_t *c)
+{
+    run_case(c);
+    memcpy(reference, fixes, sizeof reference);
+    return fix_count;
+}
+
+static void check_same(uint32_t from, uint32_t to)
+{
+    for (uint32_t i = from; i < to; i++) {
+        if (!is_same_fix(&fixes[i], &reference[i])) {
+            ck_abort_msg("fix %u differs", i);
+        }
+    }
+}
+
+static void check_sane(void)
+{
+    for (uint32_t i = 0; i < fix_count; i++) {
+        if (!is_sane_fix(&fixes[i]) || (i > 0 && fixes[i].t_us <= fixes[i - 1u].t_us)) {
+            ck_abort_msg("fix %u", i);
+        }
+    }
+}
+
+static fusion_case_t everything(void)
+{
+    fusion_case_t c = usual_case();
+    c.ranges = true;
+    return c;
+}
+
+/* ---- the same bits ---- */
+
+START_TEST(equal_seeds_give_equal_bits_others_do_not)
+{
+    uint32_t differs = 0;
+    walk_round(1u);
+    fusion_case_t c = everything();
+    uint32_t count = run_reference(&c);
+    memset(&fusion, 0xa5, sizeof fusion);
+    memset(fusion_particles, 0x5a, sizeof fusion_particles);
+    run_case(&c);
+    ck_assert_uint_eq(fix_count, count);
+    check_same(0u, count);
+    c.seed++;
+    run_case(&c);
+    ck_assert_uint_eq(fix_count, count);
+    for (uint32_t i = 0; i < count; i++) {
+        differs += is_same_fix(&fixes[i], &reference[i]) ? 0u : 1u;
+    }
+    ck_assert_uint_gt(differs, count / 2u);
+}
+END_TEST
+
+/* What comes later changes nothing that has been told; half a second is all that waits. */
+START_TEST(fixes_of_a_prefix_are_a_prefix_of_the_fixes)
+{
+    const double shares[] = {0.02, 0.1, 0.333, 0.5, 0.777};
+    walk_round(1u);
+    fusion_case_t c = everything();
+    c.has_start = _i % 2 == 0;
+    (void)run_reference(&c);
+    uint32_t cut = (uint32_t)(shares[_i] * sample_count);
+    set_up(&c);
+    run(&c, &fusion, 0u, cut);
+    ck_assert_uint_ge(fix_count + 50u, cut);
+    check_same(0u, fix_count);
+    finish(&c, &fusion);
+    ck_assert_uint_eq(fix_count, cut);
+}
+END_TEST
+
+/* Work left over when a sample comes makes no difference as long as it is done before the next news
+ * and before the row that would show it: here, at once in slices of any size. */
+START_TEST(in_slices_or_as_a_whole)
+{
+    walk_round(1u);
+    fusion_case_t c = everything();
+    uint32_t count = run_reference(&c);
+    set_up(&c);
+    for (uint32_t i = 0; i < sample_count; i++) {
+        tell_radio(&c, &fusion, i > 0u ? samples[i - 1u].t_us : 0u, samples[i].t_us);
+        ck_assert_int_eq(insole_foot_fusion_imu(&fusion, &samples[i]), INSOLE_OK);
+        take_fixes(&fusion);
+        while (insole_foot_fusion_work(&fusion, 1u + i % 37u)) {
+        }
+    }
+    finish(&c, &fusion);
+    ck_assert_uint_eq(fix_count, count);
+    check_same(0u, count);
+}
+END_TEST
+
+/* Copied in the middle of a stride's work, its memory with it, both go on alike. */
+START_TEST(a_copy_goes_on_bit_for_bit)
+{
+    static insole_particle_t particles[FUSION_PARTICLES];
+    static insole_spot_t past[FUSION_PARTICLES * FUSION_PAST];
+    static insole_late_row_t late[FUSION_LATE];
+    static uint8_t saved[sizeof fusion + INSOLE_SNAPSHOT_HEADER_BYTES];
+    const uint32_t cuts[] = {0u, 100u, 700u, 1234u, 3000u};
+    uint32_t cut = cuts[_i / 2];
+    size_t used;
+    walk_round(1u);
+    fusion_case_t c = everything();
+    c.slice = 40;
+    c.config.lag_s = _i % 2 ? INSOLE_R(3.0) : 0;
+    uint32_t count = run_reference(&c);
+    set_up(&c);
+    run(&c, &fusion, 0u, cut);
+    ck_assert_int_eq(insole_snapshot_save(9, &fusion, sizeof fusion, saved, sizeof saved, &used),
+                     INSOLE_OK);
+    memcpy(particles, fusion_particles, sizeof particles);
+    memcpy(past, fusion_past, sizeof past);
+    memcpy(late, fusion_late, sizeof late);
+    memset(&fusion, 0xa5, sizeof fusion);
+    memset(fusion_particles, 0xa5, sizeof fusion_particles);
+    memset(fusion_past, 0xa5, sizeof fusion_past);
+    memset(fusion_late, 0xa5, sizeof fusion_late);
+    ck_assert_int_eq(insole_snapshot_load(9, &other, sizeof other, saved, used), INSOLE_OK);
+    other.memory.particles = particles;
+    other.memory.past = past;
+    other.memory.late = other.late.rows = late;
+    run(&c, &other, cut, sample_count);
+    finish(&c, &other);
+    ck_assert_uint_eq(fix_count, count);
+    check_same(0u, count);
+}
+END_TEST
+
+/* ---- little time to work ---- */
+
+static const struct {
+    uint32_t particles, slice;
+    double lag_s;
+    bool scans;
+} slow[] = {{100, 1, 0.0, true}, {300, 1, 0.0, true}, {100, 1, 1.0, true},
+            {300, 1, 5.0, true}, {300, 7, 0.0, true}, {300, 0, 0.0, true},
+            {300, 0, 2.0, true}, {50, 3, 0.0, false}, {50, 3, 2.0, false}};
+
+/* However little work is done, no sample is refused, each has its fix, and all are sane. */
+START_TEST(starved_it_never_blocks)
+{
+    walk_round(1u);
+    fusion_case_t c = usual_case();
+    c.particles = slow[_i].particles;
+    c.slice = slow[_i].slice;
+    c.scans = slow[_i].scans;
+    c.config.lag_s = (insole_real_t)slow[_i].lag_s;
+    set_up(&c);
+    run(&c, &fusion, 0u, sample_count);
+    ck_assert_uint_ge(fix_count + 60u + (uint32_t)(100.0 * slow[_i].lag_s), sample_count);
+    c.slice = WHOLE;
+    finish(&c, &fusion);
+    ck_assert_uint_eq(fix_count, sample_count);
+    check_sane();
+}
+END_TEST
+
+/* With work for a stride done within the stride it is nearly as good as at once. */
+START_TEST(work_may_be_spread_over_the_stride)
+{
+    walk_round(1u);
+    fusion_case_t c = usual_case();
+    c.slice = 300; /* 30000 a second */
+    run_case(&c);
+    ASSERT_AT_MOST(mean_error(0.0, HUGE_VAL), 0.4, "m");
+    ck_assert_uint_ge(fusion.particles.counts.strides, 36);
+}
+END_TEST
+
+START_TEST(finish_gives_one_fix_per_sample_and_only_once)
+{
+    insole_fix_t fix;
+    walk_round(1u);
+    fusion_case_t c = everything();
+    c.config.lag_s = _i == 0 ? 0 : 4;
+    run_case(&c);
+    ck_assert_uint_eq(fix_count, sample_count);
+    check_sane();
+    before = fusion;
+    ck_assert_int_eq(insole_foot_fusion_finish(&fusion), INSOLE_OK);
+    ck_assert_int_eq(insole_foot_fusion_next(&fusion, &fix), INSOLE_ERR_STATE);
+    ck_assert(!insole_foot_fusion_work(&fusion, WHOLE));
+    ck_assert_mem_eq(&fusion, &before, sizeof fusion);
+    ck_assert_int_eq(insole_foot_fusion_imu(&fusion, &samples[0]), INSOLE_ERR_STATE);
+}
+END_TEST
+
+START_TEST(nothing_in_nothing_out)
+{
+    insole_fix_t fix;
+    walk_round(1u);
+    fusion_case_t c = everything();
+    c.config.method = _i % 3;
+    c.config.lag_s = _i < 3 ? 0 : 2;
+    set_up(&c);
+    ck_assert_int_eq(insole_foot_fusion_next(&fusion, &fix), INSOLE_ERR_STATE);
+    ck_assert(!insole_foot_fusion_work(&fusion, WHOLE));
+    ck_assert_int_eq(insole_foot_fusion_finish(&fusion), INSOLE_OK);
+    ck_assert_int_eq(insole_foot_fusion_next(&fusion, &fix), INSOLE_ERR_STATE);
+}
+END_TEST
+
+/* Before the sensor has been still nobody knows anything, and scans do not change that. */
+START_TEST(before_the_foot_is_aligned)
+{
+    walk_round(1u);
+    fusion_case_t c = usual_case();
+    run_case(&c);
+    uint32_t aligning = 0;
+    while (fixes[aligning].state == INSOLE_FIX_ALIGN) {
+        aligning++;
+    }
+    ck_assert_uint_ge(aligning, 1);
+    for (uint32_t i = aligning; i < fix_count; i++) {
+        ck_assert_int_ne(fixes[i].state, INSOLE_FIX_ALIGN);
+    }
+}
+END_TEST
+
+/* ---- refusals ---- */
+
+static insole_fusion_memory_t memory;
+
+static insole_status_t judge(void)
+{
+    return insole_foot_fusion_init(&fusion, &config, &memory, &radio.building, 1u);
+}
+
+static void begin_refusals(void)
+{
+    walk_round(1u);
+    fusion_case_t c = everything();
+    c.config.lag_s = 2;
+    set_up(&c);
+    run(&c, &fusion, 0u, 900u);
+    memory = memory_of(&c);
+    config = c.config;
+}
+
+START_TEST(settings_keep_to_their_ranges)
+{
+    begin_refusals();
+    INSOLE_FOOT_FUSION_KEYS(SETTING_HAS_ENDS)
+}
+END_TEST
+
+#define SPOILED(setting, status)                                                                   \
+    do {                                                                                           \
+        insole_foot_fusion_config_t kept_ = config;                                                \
+        setting;                                                                                   \
+        ASSERT_UNCHANGED(fusion, judge(), status);                                                 \
+        config = kept_;                                                                            \
+    } while (0)
+
+START_TEST(bad_settings_change_nothing)
+{
+    begin_refusals();
+    SPOILED(config.lag_s = -1, INSOLE_ERR_VALUE);
+    SPOILED(config.search_sigma_m = (insole_real_t)NAN, INSOLE_ERR_VALUE);
+    SPOILED(config.foot.align_s = -1, INSOLE_ERR_VALUE);
+    SPOILED(config.foot.zupt_ekf.sigma_zupt_mps = -1, INSOLE_ERR_VALUE);
+    SPOILED(config.particles.sigma_length_m = -1, INSOLE_ERR_VALUE);
+    SPOILED(config.particles.field.cover = 0, INSOLE_ERR_VALUE);
+    SPOILED(config.two_order.sigma_length_m = -1;
+            config.method = INSOLE_FUSION_TWO_ORDER, INSOLE_ERR_VALUE);
+    SPOILED(config.rss_fix.sigma_db = -1, INSOLE_ERR_VALUE);
+    SPOILED(config.range_fix.sigma_m = 0, INSOLE_ERR_VALUE);
+}
+END_TEST
+
+START_TEST(bad_memory_changes_nothing)
+{
+    begin_refusals();
+    insole_fusion_memory_t good = memory;
+    memory.particles = NULL;
+    ASSERT_UNCHANGED(fusion, judge(), INSOLE_ERR_NULL);
+    memory = good;
+    memory.count = 0;
+    ASSERT_UNCHANGED(fusion, judge(), INSOLE_ERR_VALUE);
+    memory = good;
+    memory.past = NULL; /* and there is a lag */
+    ASSERT_UNCHANGED(fusion, judge(), INSOLE_ERR_NULL);
+    memory = good;
+    memory.late = NULL;
+    ASSERT_UNCHANGED(fusion, judge(), INSOLE_ERR_NULL);
+    memory = good;
+    memory.late_count = 0;
+    ASSERT_UNCHANGED(fusion, judge(), INSOLE_ERR_NULL);
+    config.lag_s = 0; /* without one they are not wanted */
+    memory.past = NULL;
+    memory.late = NULL;
+    ck_assert_int_eq(judge(), INSOLE_OK);
+}
+END_TEST
+
+START_TEST(bad_calls_change_nothing_but_their_counter)
+{
+    insole_fix_t fix;
+    begin_refusals();
+    insole_scan_t hollow = {1, NULL, 3}, scan = {1, heard[0].readings, FUSION_APS};
+    insole_start_t wrong = start_at(1.0, 0.0, 0.0, 0.3);
+    wrong.x_m = (insole_real_t)NAN;
+    uint32_t *refused = &fusion.counts.refused, *foot = &fusion.foot.counts.refused;
+    ASSERT_REFUSED(fusion, *refused, insole_foot_fusion_scan(&fusion, NULL), INSOLE_ERR_NULL);
+    ASSERT_REFUSED(fusion, *refused, insole_foot_fusion_scan(&fusion, &hollow), INSOLE_ERR_NULL);
+    ASSERT_REFUSED(fusion, *refused, insole_foot_fusion_ranges(&fusion, NULL, 2), INSOLE_ERR_NULL);
+    ASSERT_REFUSED(fusion, *foot, insole_foot_fusion_start(&fusion, &wrong), INSOLE_ERR_VALUE);
+    ASSERT_REFUSED(fusion, *foot, insole_foot_fusion_start(&fusion, NULL), INSOLE_ERR_NULL);
+    ASSERT_UNCHANGED(fusion, insole_foot_fusion_imu(&fusion, NULL), INSOLE_ERR_NULL);
+    ASSERT_UNCHANGED(fusion, insole_foot_fusion_next(&fusion, NULL), INSOLE_ERR_NULL);
+    fusion.building = NULL;
+    ASSERT_REFUSED(fusion, *refused, insole_foot_fusion_scan(&fusion, &scan), INSOLE_ERR_STATE);
+    ASSERT_REFUSED(fusion, *refused, insole_foot_fusion_ranges(&fusion, heard[0].ranges, 2),
+                   INSOLE_ERR_STATE);
+    ck_assert_int_eq(insole_foot_fusion_init(NULL, &config, &memory, NULL, 1u), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_foot_fusion_init(&fusion, NULL, &memory, NULL, 1u), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_foot_fusion_init(&fusion, &config, NULL, NULL, 1u), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_foot_fusion_start(NULL, &wrong), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_foot_fusion_imu(NULL, &samples[0]), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_foot_fusion_scan(NULL, &scan), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_foot_fusion_ranges(NULL, heard[0].ranges, 2), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_foot_fusion_next(NULL, &fix), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_foot_fusion_finish(NULL), INSOLE_ERR_NULL);
+    ck_assert(!insole_foot_fusion_work(NULL, 1));
+}
+END_TEST
+
+/* Samples that nobody fetches: refused when there is no room, and none of them lost before. */
+START_TEST(a_full_ring_refuses_the_sample)
+{
+    walk_round(1u);
+    fusion_case_t c = everything();
+    set_up(&c);
+    uint32_t taken = 0;
+    while (insole_foot_fusion_imu(&fusion, &samples[taken]) == INSOLE_OK) {
+        ck_assert_uint_lt(++taken, sample_count);
+    }
+    uint32_t *foot = &fusion.foot.counts.refused;
+    ASSERT_REFUSED(fusion, *foot, insole_foot_fusion_imu(&fusion, &samples[taken]),
+                   INSOLE_ERR_ROOM);
+    take_fixes(&fusion);
+    ck_assert_uint_gt(fix_count, 0);
+    run(&c, &fusion, taken, sample_count);
+    finish(&c, &fusion);
+    ck_assert_uint_eq(fix_count, sample_count);
+}
+END_TEST
+
+/* ---- whatever comes ---- */
+
+static insole_real_t wild(double low, double high)
+{
+    static const double odd[] = {0.0, 1e30, -1e30, (double)NAN, HUGE_VAL, -HUGE_VAL};
+    uint32_t pick = insole_rng_bits(&rng) % 40u;
+    return (insole_real_t)(pick < 6u ? odd[pick] : draw_uniform(&rng, low, high));
+}
+
+static uint64_t wild_stamp(uint64_t now_us)
+{
+    uint32_t pick = insole_rng_bits(&rng) % 20u;
+    return pick == 0u ? UINT64_MAX : pick == 1u ? 0u : now_us + pick * 50000u;
+}
+
+static void come_what_may(uint64_t now_us)
+{
+    heard_t *h = &heard[0];
+    insole_start_t start = {
+        wild_stamp(now_us), wild(80.0, 120.0), wild(30.0, 60.0), insole_rng_bits(&rng) % 2u == 0,
+        wild(-4.0, 4.0),    wild(0.0, 5.0),    wild(0.0, 4.0)};
+    for (uint32_t i = 0; i < FUSION_APS; i++) {
+        insole_rss_t reading = {insole_rng_bits(&rng) % 15u, wild(-100.0, -20.0), 0};
+        insole_range_t range = {wild_stamp(now_us), insole_rng_bits(&rng) % 15u, wild(0.0, 40.0),
+                                wild(-1.0, 3.0)};
+        h->readings[i] = reading;
+        h->ranges[i] = range;
+    }
+    insole_scan_t scan = {wild_stamp(now_us), h->readings, insole_rng_bits(&rng) % FUSION_APS};
+    (void)insole_foot_fusion_scan(&fusion, &scan);
+    (void)insole_foot_fusion_ranges(&fusion, h->ranges, insole_rng_bits(&rng) % FUSION_APS);
+    if (insole_rng_bits(&rng) % 20u == 0u) {
+        (void)insole_foot_fusion_start(&fusion, &start);
+    }
+}
+
+static insole_imu_t spoiled(const insole_imu_t *good)
+{
+    insole_imu_t bad = *good;
+    if (insole_rng_bits(&rng) % 50u == 0u) {
+        bad.accel_mps2.x = wild(-200.0, 200.0);
+        bad.gyro_radps.z = wild(-50.0, 50.0);
+    }
+    return bad;
+}
+
+/* Radio, starts and samples gone wild, the work done in any portion: the fixes stay sane. */
+START_TEST(garbage_never_makes_a_fix_that_is_no_number)
+{
+    walk_round(1u);
+    fusion_case_t c = usual_case();
+    c.has_start = false;
+    c.particles = 60;
+    c.config.method = _i % 3;
+    c.config.lag_s = _i < 3 ? 0 : 2;
+    set_up(&c);
+    insole_rng_seed(&rng, 200u + (uint32_t)_i);
+    uint64_t last_us = 0;
+    for (uint32_t i = 0; i < sample_count; i++) {
+        insole_imu_t imu = spoiled(&samples[i]);
+        (void)insole_foot_fusion_imu(&fusion, &imu);
+        if (i % 20u == 0u) {
+            come_what_may(imu.t_us);
+        }
+        while (insole_foot_fusion_next(&fusion, &fixes[0]) == INSOLE_OK) {
+            ck_assert(is_sane_fix(&fixes[0]));
+            ck_assert(c.config.method == INSOLE_FUSION_WIFI || fixes[0].t_us > last_us);
+            last_us = fixes[0].t_us;
+        }
+        (void)insole_foot_fusion_work(&fusion, insole_rng_bits(&rng) % 400u);
+    }
+    ck_assert(last_us > 0);
+}
+END_TEST
+
+Suite *insole_suite(void)
+{
+    Suite *suite = suite_create("foot_fusion_promises");
+    suite_add(suite, "seeds", equal_seeds_give_equal_bits_others_do_not);
+    suite_add_loop(suite, "prefix", fixes_of_a_prefix_are_a_prefix_of_the_fixes, 5);
+    suite_add(suite, "slices", in_slices_or_as_a_whole);
+    suite_add_loop(suite, "copy", a_copy_goes_on_bit_for_bit, 10);
+    suite_add_loop(suite, "starved", starved_it_never_blocks, sizeof slow / sizeof slow[0]);
+    suite_add(suite, "spread work", work_may_be_spread_over_the_stride);
+    suite_add_loop(suite, "finish", finish_gives_one_fix_per_sample_and_only_once, 2);
+    suite_add_loop(suite, "nothing", nothing_in_nothing_out, 6);
+    suite_add(suite, "align", before_the_foot_is_aligned);
+    suite_add(suite, "settings", settings_keep_to_their_ranges);
+    suite_add(suite, "bad settings", bad_settings_change_nothing);
+    suite_add(suite, "bad memory", bad_memory_changes_nothing);
+    suite_add(suite, "bad calls", bad_calls_change_nothing_but_their_counter);
+    suite_add(suite, "full ring", a_full_ring_refuses_the_sample);
+    suite_add_loop(suite, "garbage", garbage_never_makes_a_fix_that_is_no_number, 6);
+    return suite;
+}
