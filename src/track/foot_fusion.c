@@ -166,7 +166,7 @@ static void begin(insole_foot_fusion_t *f, const insole_particle_start_t *start)
     f->working = true;
     f->wants_start = f->wants_start && f->foot.has_start; /* one told ahead is still to come */
     f->has_stride = false;
-    f->stride_turn_rad = ZERO;
+    f->stride_turn_rad = f->stride_model_m = ZERO;
     f->told_n_m = f->fixed_n_m = foot_n(f);
     f->counts.starts++;
     (void)insole_foot_late_stride(&f->late, 0u, f->told_n_m);
@@ -197,13 +197,18 @@ static void begin_as_told(insole_foot_fusion_t *f, const insole_fix_t *foot)
     begin(f, &start);
 }
 
-/* Nobody tells: radio does, but not the direction. */
-static void begin_by_radio(insole_foot_fusion_t *f)
+/* Nobody tells: radio does, but not the direction. The paper's inertial position begins there too,
+ * and its n lies as m does. */
+static void begin_by_radio(insole_foot_fusion_t *f, uint64_t t_us)
 {
-    insole_real_t var_m2 = HALF * (f->radio.fix.P.xx + f->radio.fix.P.yy);
-    insole_particle_start_t start = {f->radio.fix.x_m, f->radio.fix.y_m,
-                                     insole_sqrt(var_m2) + f->config.unsure_start_m, ZERO,
-                                     INSOLE_PI};
+    const insole_anchor_fix_t *fix = &f->radio.fix;
+    insole_real_t sigma_m = insole_sqrt(HALF * (fix->P.xx + fix->P.yy)) + f->config.unsure_start_m;
+    insole_particle_start_t start = {fix->x_m, fix->y_m, sigma_m, ZERO, INSOLE_PI};
+    if (f->config.method == INSOLE_FUSION_TWO_ORDER) {
+        insole_start_t place = {t_us, fix->x_m, fix->y_m, false, ZERO, ZERO, ZERO};
+        (void)insole_foot_tracker_start(&f->foot, &place);
+        start.sigma_offset_rad = ZERO;
+    }
     begin(f, &start);
 }
 
@@ -213,7 +218,7 @@ static void begin_if_possible(insole_foot_fusion_t *f, const insole_fix_t *foot)
         f->is_told = true;
         begin_as_told(f, foot);
     } else if (f->counts.starts == 0u && f->radio.has_fix && f->foot.zupt_ekf.aligned) {
-        begin_by_radio(f);
+        begin_by_radio(f, foot->t_us);
     }
 }
 
@@ -221,15 +226,16 @@ static void tell_stride(insole_foot_fusion_t *f, const insole_fix_t *foot, insol
 {
     insole_spot_t end = {f->foot.strides.origin_m.x, f->foot.strides.origin_m.y};
     insole_real_t dx = end.x_m - f->told_n_m.x_m, dy = end.y_m - f->told_n_m.y_m;
+    bool printed = f->config.method == INSOLE_FUSION_TWO_ORDER;
+    insole_real_t length_m = printed ? f->stride_model_m : insole_sqrt(dx * dx + dy * dy);
     f->told_n_m = end;
-    (void)insole_evidence_stride(news, insole_sqrt(dx * dx + dy * dy), insole_atan2(dy, dx),
-                                 f->stride_turn_rad);
-    if (f->config.method == INSOLE_FUSION_TWO_ORDER) {
+    (void)insole_evidence_stride(news, length_m, insole_atan2(dy, dx), f->stride_turn_rad);
+    if (printed) {
         insole_spot_t inertial = {foot->position_m.x, foot->position_m.y};
         (void)insole_evidence_position(news, inertial, f->config.sigma_inertial_m);
     }
     f->has_stride = false;
-    f->stride_turn_rad = ZERO;
+    f->stride_turn_rad = f->stride_model_m = ZERO;
 }
 
 /* Strides that end while the particles are busy are told as one. */
@@ -238,6 +244,7 @@ static void gather_stride(insole_foot_fusion_t *f)
     insole_stride_t stride;
     if (insole_foot_tracker_stride(&f->foot, &stride) == INSOLE_OK && f->counts.starts > 0u) {
         f->stride_turn_rad = insole_wrap_pi(f->stride_turn_rad + stride.turn_rad);
+        f->stride_model_m += stride.model_length_m;
         f->has_stride = true;
     }
 }
@@ -302,8 +309,7 @@ static bool has_cloud(const insole_foot_fusion_t *f)
     return f->particles.has_fix && !is_at_start(f);
 }
 
-/* Who was told nothing, is not certain, or has a cloud that has just died out or is contradicted by
- * scans, still searches. */
+/* Told nothing, not certain, or with a cloud that just died out or misfits: it still searches. */
 static bool is_sure(const insole_foot_fusion_t *f, const insole_fix_t *fix)
 {
     bool is_narrow = fix->var_x_m2 + fix->var_y_m2 <= insole_square(f->config.search_sigma_m);

@@ -388,7 +388,7 @@ START_TEST(later_it_is_known_better)
             ck_assert(fixes[i].t_us == samples[i].t_us);
         }
     }
-    ASSERT_AT_MOST(later, 0.85 * at_once, "m");
+    ASSERT_AT_MOST(later, 0.95 * at_once, "m");
 }
 END_TEST
 

@@ -37,7 +37,7 @@ extern "C" {
 
 /* clang-format off */
 #define INSOLE_RSS_FIELD_KEYS(KEY)                                                                \
-    KEY(REAL, spacing_m, 0.5, 0.1, 10.0, "m", "smallest distance of nodes")                       \
+    KEY(REAL, spacing_m, 0.8, 0.1, 10.0, "m", "smallest distance of nodes")                       \
     KEY(REAL, cover, 1.0, 0.5, 10.0, "", "the nodes cover so many sigmas to every side")          \
     KEY(REAL, learn_weight, 0.02, 0.0, 1.0, "",                                                   \
         "least weight of a new scan in the receiver's own offset; 0 = no offset is learned")      \

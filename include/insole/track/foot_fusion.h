@@ -103,6 +103,7 @@ typedef struct {
     bool working;                  /**< the particles have work left */
     bool has_stride;               /**< strides wait for the particles */
     insole_real_t stride_turn_rad; /**< the foot's turn over them */
+    insole_real_t stride_model_m;  /**< their length by (33), which the paper walks */
     insole_spot_t told_n_m;        /**< n, where the stride told last ended */
     insole_spot_t fixed_n_m;       /**< n, where the foot was at the particles' last fix */
 
