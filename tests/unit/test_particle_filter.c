@@ -600,7 +600,8 @@ static void eventful_walk(void)
 static void run_eventful(uint32_t count, uint32_t in_slices_of)
 {
     insole_particle_filter_config_t config = insole_particle_filter_defaults;
-    config.field.elsewhere_weight = INSOLE_R(0.8); /* so that more happens */
+    config.field.elsewhere_weight = 1;
+    config.redraw_margin = 0; /* so that more happens */
     begin_world(80u, 0.0, 0.0, 0.0);
     begin_filter(&config, count);
     cloud.past = past;
