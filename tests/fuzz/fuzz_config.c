@@ -27,7 +27,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                    "the message says where and what");
     }
     check_settings(&settings);
-    fuzz_claim(insole_foot_tracker_init(&tracker, &settings.foot) == INSOLE_OK,
+    fuzz_claim(insole_foot_tracker_init(&tracker, &settings.fusion.foot) == INSOLE_OK,
                "the library takes what was set");
     return 0;
 }

@@ -57,7 +57,8 @@ static replay_request_t request_of(const char *const *path)
     request.log_count = 1u;
     request.rate_hz = 10.0;
     settings_init(&request.settings);
-    request.settings.foot.zupt_ekf.roll_height_m = INSOLE_R(0.0); /* this foot does not roll */
+    request.settings.fusion.foot.zupt_ekf.roll_height_m =
+        INSOLE_R(0.0); /* this foot does not roll */
     return request;
 }
 
@@ -111,7 +112,7 @@ START_TEST(strides_and_stances_are_told)
     for (int i = 0; i < result.event_count; i++) {
         const foot_event_t *event = &result.events[i];
         ck_assert_int_ge(event->end_us, event->begin_us);
-        if (event->is_stride) {
+        if (event->kind == EVENT_STRIDE) {
             double lift_s = bend.begin_s + bend.rest_s + strides * (SWING_S + STANCE_S);
             ASSERT_NEAR(event->length_m, 1.3, 0.01, "m");
             ASSERT_NEAR(1e-6 * (double)event->begin_us, lift_s, 0.08, "s");
@@ -141,7 +142,8 @@ static void expect_same_rows(const track_t *a, const track_t *b, size_t n)
     for (size_t i = 0u; i < n; i++) {
         const track_row_t *p = &a->rows[i], *q = &b->rows[i];
         ck_assert_msg(memcmp(p, q, offsetof(track_row_t, state)) == 0 && p->state == q->state,
-                      "row %lu at %.6f and %.6f s: x %.17g and %.17g m, var_x %.17g and %.17g m^2, state %d and %d",
+                      "row %lu at %.6f and %.6f s: x %.17g and %.17g m, var_x %.17g and %.17g m^2, "
+                      "state %d and %d",
                       (unsigned long)i, 1e-6 * (double)p->t_us, 1e-6 * (double)q->t_us, p->x_m,
                       q->x_m, p->var_x_m2, q->var_x_m2, (int)p->state, (int)q->state);
     }
@@ -170,8 +172,8 @@ START_TEST(a_start_from_outside_replaces_that_of_the_log)
 {
     const char *const path = write_walk(&bend, "start.csv", "start,-3.25,100,50,1.57079633\n");
     replay_request_t request = request_of(&path);
-    const record_t start = {RECORD_START, 0, 0u,
-                            {-7.0, 2.0, (double)NAN, (double)NAN, (double)NAN, (double)NAN}};
+    const record_t start = {
+        RECORD_START, 0, 0u, {-7.0, 2.0, (double)NAN, (double)NAN, (double)NAN, (double)NAN}};
     request.has_start = true;
     request.start = start;
     run(&request);
@@ -340,7 +342,7 @@ START_TEST(settings_the_library_does_not_take_are_told)
     const char *const path = write_walk(&bend, "walk.csv", "");
     replay_request_t request = request_of(&path);
     replay_sink_t sink = {NULL, NULL, NULL, NULL};
-    request.settings.foot.zupt_ekf.sigma_zupt_mps = INSOLE_R(-1.0);
+    request.settings.fusion.foot.zupt_ekf.sigma_zupt_mps = INSOLE_R(-1.0);
     ck_assert(!replay_run(&request, &sink, &result.facts, &result.failure));
     ck_assert_str_eq(result.failure.text, "insole: the tracker does not take these settings");
     clear();
@@ -351,7 +353,8 @@ START_TEST(the_sensor_settings_are_applied)
 {
     const sensor_config_t sensor = {INSOLE_R(2.0), INSOLE_R(0.5), INSOLE_R(-0.5), INSOLE_R(1.0),
                                     INSOLE_R(1.0), INSOLE_R(2.0), INSOLE_R(3.0)};
-    insole_imu_t imu = {0u, {INSOLE_R(1.0), INSOLE_R(2.0), INSOLE_R(3.5)},
+    insole_imu_t imu = {0u,
+                        {INSOLE_R(1.0), INSOLE_R(2.0), INSOLE_R(3.5)},
                         {INSOLE_R(1.0), INSOLE_R(1.0), INSOLE_R(1.0)}};
     settings_correct(&sensor, &imu);
     ck_assert(imu.accel_mps2.x == INSOLE_R(0.0) && imu.accel_mps2.y == INSOLE_R(0.0) &&

@@ -31,7 +31,7 @@ static bool keep_stride(void *context, const foot_event_t *event, failure_t *fai
 {
     pairs_t *pairs = context;
     (void)failure;
-    if (event->is_stride) {
+    if (event->kind == EVENT_STRIDE) {
         pairs->strides = memory_room(pairs->strides, &pairs->stride_room, pairs->stride_count + 1u,
                                      sizeof *pairs->strides);
         pairs->strides[pairs->stride_count++] = *event;
@@ -92,6 +92,7 @@ static bool take_session(const arguments_t *arguments, const char *path, pairs_t
     memset(&request, 0, sizeof request);
     request.logs = &path;
     request.log_count = 1u;
+    request.method = METHOD_INS;
     request.rate_hz = 1.0;
     request.accel_unit = options_value(arguments, "accel-unit");
     request.gyro_unit = options_value(arguments, "gyro-unit");

@@ -52,7 +52,8 @@ static bool run_trial(contest_t *contest, const char *method, failure_t *failure
     replay_sink_t sink = {track, NULL, keep_row, NULL};
     contest->count++;
     trial->method = method;
-    if (!replay_options_method(&request, method, failure) ||
+    if (!method_parse(method, &request.method, failure) ||
+        !replay_options_check(contest->arguments, &request, failure) ||
         !replay_run(&request, &sink, &trial->facts, failure)) {
         return false;
     }
@@ -184,6 +185,7 @@ static void free_contest(contest_t *contest)
         replay_facts_free(&contest->trials[i].facts);
     }
     scoring_free(&contest->scoring);
+    replay_options_free(&contest->request);
     free(contest->names);
     free(contest);
 }
@@ -202,7 +204,7 @@ static bool run(const arguments_t *arguments, failure_t *failure)
 }
 
 static const option_t options[] = {
-    {"methods", "A,B,...", "the methods to compare: ins, pdr"},
+    {"methods", "A,B,...", "the methods to compare: " METHOD_NAMES},
     REPLAY_OPTIONS,
     {"rate", "HZ", "rows of the tracks per second (default 10); 0: one per reading"},
     {"plot", "FILE", "draw all tracks, and the truth if there is one, as SVG"},
@@ -215,6 +217,7 @@ const command_t command_compare = {
     "several methods on the same log: one table, one picture",
     "Every method sees the same readings and settings. With a truth the table has its errors.\n"
     "\n"
+    "  insole compare folder --methods ins,two-order,best\n"
     "  insole compare walk.csv --methods ins,pdr --truth walk.truth.csv --plot both.svg\n",
     options,
     run};

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "config_keys.h"
 #include "event_writer.h"
 #include "number.h"
 #include "output.h"
@@ -58,7 +57,13 @@ static bool is_input(const job_t *job, const session_t *session, const char *pat
 {
     const char *truth = options_value(job->arguments, "truth");
     const char *config = options_value(job->arguments, "config");
-    return session_reads(session, path) || (truth != NULL && platform_is_same_file(truth, path)) ||
+    const site_t *site = job->request.site;
+    bool is_site =
+        site != NULL &&
+        ((site->plan_file.name != NULL && platform_is_same_file(site->plan_file.name, path)) ||
+         (site->ap_file.name != NULL && platform_is_same_file(site->ap_file.name, path)));
+    return session_reads(session, path) || is_site ||
+           (truth != NULL && platform_is_same_file(truth, path)) ||
            (config != NULL && platform_is_same_file(config, path));
 }
 
@@ -97,14 +102,13 @@ static bool reads_stdin(const arguments_t *arguments)
 static bool parse(job_t *job, failure_t *failure)
 {
     const arguments_t *arguments = job->arguments;
-    const char *method = options_value(arguments, "method");
     const char *format = options_value(arguments, "format");
     job->is_live = reads_stdin(arguments);
     job->keeps_rows =
         !job->is_live || options_has(arguments, "plot") || options_has(arguments, "truth");
     return replay_options_parse(arguments, &job->request, failure) &&
            options_number(arguments, "rate", 0.0, 1000.0, &job->request.rate_hz, failure) &&
-           (method == NULL || replay_options_method(&job->request, method, failure)) &&
+           replay_options_check(arguments, &job->request, failure) &&
            (format == NULL || track_format_parse(format, &job->format, failure)) &&
            scoring_begin(&job->scoring, arguments, failure);
 }
@@ -172,10 +176,9 @@ static bool draw(const job_t *job, const summary_t *summary, failure_t *failure)
 
 static bool report(job_t *job, failure_t *failure)
 {
-    char method[CONFIG_CHOICE_ROOM];
     score_t score;
-    summary_t summary = {"foot", method, &job->facts, NULL};
-    config_choice(method, "foot_tracker.method", job->request.settings.foot.method);
+    summary_t summary = {"foot", method_name(job->request.method), &job->facts, NULL,
+                         job->request.site};
     if (job->keeps_rows && scoring_score(&job->scoring, &job->facts, &job->rows, &score)) {
         summary.score = &score;
     }
@@ -202,19 +205,22 @@ static bool run(const arguments_t *arguments, failure_t *failure)
     track_free(&job.rows);
     scoring_free(&job.scoring);
     replay_facts_free(&job.facts);
+    replay_options_free(&job.request);
     return is_good;
 }
 
 static const option_t options[] = {
     {"method", "METHOD",
-     "ins: inertial navigation with zero-velocity updates (default);\n"
-     "pdr: strides of modelled length in the inertial direction"},
+     "best: whatever is given is used as well as we know how (default);\n"
+     "two-order: the second stage of [TwoOrder] as printed; wifi: radio alone, no IMU\n"
+     "is needed; ins: inertial navigation with zero-velocity updates alone; pdr: strides\n"
+     "of modelled length in the inertial direction"},
     REPLAY_OPTIONS,
     {"rate", "HZ", "rows of the track per second (default 10); 0: one per reading"},
-    {"smooth", NULL, "look back: what comes after a moment counts for it too; rows come late"},
+    {"smooth", NULL, "ins, pdr: what comes after a moment counts for it too; rows come late"},
     {"out", "FILE", "write the track; - is standard output. Without --out none is written"},
     {"format", "FORMAT", "of the track: csv (default), tum or geojson"},
-    {"events", "FILE", "write stances and strides as CSV"},
+    {"events", "FILE", "write stances, strides, scans worked in, resamplings, ... as CSV"},
     {"plot", "FILE", "draw the track, and the truth if there is one, as SVG"},
     {"json", NULL, "summary as JSON on standard output instead of text on stderr"},
     {NULL, NULL, NULL}};
@@ -228,6 +234,7 @@ const command_t command_replay = {
     "known, about half a second after its reading. `insole help files` tells the formats.\n"
     "\n"
     "  insole replay walk.csv --plot walk.svg\n"
+    "  insole replay walk.csv radio.csv --plan plan.csv --aps aps.csv --plot walk.svg\n"
     "  insole replay walk.csv --truth walk.truth.csv --out track.csv\n"
     "  insole replay - --out - < /dev/ttyUSB0\n",
     options,

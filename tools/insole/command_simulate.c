@@ -8,17 +8,6 @@
 #include "number.h"
 #include "sim/write.h"
 
-static bool parse_seed(const arguments_t *arguments, int64_t *seed, failure_t *failure)
-{
-    const char *text = options_value(arguments, "seed");
-    *seed = 1;
-    if (text != NULL && !number_parse_whole(text, 0, INT64_MAX, seed)) {
-        return failure_usage(failure, "insole simulate: --seed %.40s: expected a whole number",
-                             text);
-    }
-    return true;
-}
-
 static void print_report(const sim_report_t *report)
 {
     char duration[NUMBER_ROOM], distance[NUMBER_ROOM];
@@ -36,11 +25,11 @@ static bool run(const arguments_t *arguments, failure_t *failure)
     const char *folder = options_value(arguments, "out");
     char error[sizeof failure->text];
     sim_report_t report;
-    int64_t seed;
+    int64_t seed = 1;
     if (arguments->operand_count != 1u || folder == NULL) {
         return failure_usage(failure, "insole simulate: expected one SCENARIO and --out DIR");
     }
-    if (!parse_seed(arguments, &seed, failure)) {
+    if (!options_whole(arguments, "seed", 0, INT64_MAX, &seed, failure)) {
         return false;
     }
     if (sim_write_scenario(arguments->operands[0], folder, (uint64_t)seed, &report, error,

@@ -7,23 +7,26 @@
 #include "number.h"
 
 #define ROW(section, member, kind, name, value, low, high, unit, text)                             \
-    {#section "." #name,                                                                           \
-     CONFIG_##kind,                                                                                \
-     offsetof(settings_t, member.name),                                                            \
-     value,                                                                                        \
-     low,                                                                                          \
-     high,                                                                                         \
-     unit,                                                                                         \
-     text},
+    {#section "." #name, CONFIG_##kind, offsetof(settings_t, member.name), low, high, unit, text},
 
 #define SENSOR_ROW(kind, name, ...)       ROW(sensor, sensor, kind, name, __VA_ARGS__)
-#define FOOT_TRACKER_ROW(kind, name, ...) ROW(foot_tracker, foot, kind, name, __VA_ARGS__)
-#define SCREEN_ROW(kind, name, ...)       ROW(screen, foot.screen, kind, name, __VA_ARGS__)
-#define STILL_BIAS_ROW(kind, name, ...)   ROW(still_bias, foot.still_bias, kind, name, __VA_ARGS__)
+#define FOOT_TRACKER_ROW(kind, name, ...) ROW(foot_tracker, fusion.foot, kind, name, __VA_ARGS__)
+#define SCREEN_ROW(kind, name, ...)       ROW(screen, fusion.foot.screen, kind, name, __VA_ARGS__)
+#define STILL_BIAS_ROW(kind, name, ...)                                                            \
+    ROW(still_bias, fusion.foot.still_bias, kind, name, __VA_ARGS__)
 #define ZERO_VELOCITY_ROW(kind, name, ...)                                                         \
-    ROW(zero_velocity, foot.zero_velocity, kind, name, __VA_ARGS__)
-#define ZUPT_EKF_ROW(kind, name, ...) ROW(zupt_ekf, foot.zupt_ekf, kind, name, __VA_ARGS__)
-#define STRIDE_ROW(kind, name, ...)   ROW(stride, foot.stride, kind, name, __VA_ARGS__)
+    ROW(zero_velocity, fusion.foot.zero_velocity, kind, name, __VA_ARGS__)
+#define ZUPT_EKF_ROW(kind, name, ...)    ROW(zupt_ekf, fusion.foot.zupt_ekf, kind, name, __VA_ARGS__)
+#define STRIDE_ROW(kind, name, ...)      ROW(stride, fusion.foot.stride, kind, name, __VA_ARGS__)
+#define FOOT_FUSION_ROW(kind, name, ...) ROW(foot_fusion, fusion, kind, name, __VA_ARGS__)
+#define PARTICLE_FILTER_ROW(kind, name, ...)                                                       \
+    ROW(particle_filter, fusion.particles, kind, name, __VA_ARGS__)
+#define TWO_ORDER_ROW(kind, name, ...) ROW(two_order, fusion.two_order, kind, name, __VA_ARGS__)
+#define RSS_FIELD_ROW(kind, name, ...)                                                             \
+    ROW(rss_field, fusion.particles.field, kind, name, __VA_ARGS__)
+#define PROPAGATION_ROW(kind, name, ...) ROW(propagation, propagation, kind, name, __VA_ARGS__)
+#define RSS_FIX_ROW(kind, name, ...)     ROW(rss_fix, fusion.rss_fix, kind, name, __VA_ARGS__)
+#define RANGE_FIX_ROW(kind, name, ...)   ROW(range_fix, fusion.range_fix, kind, name, __VA_ARGS__)
 
 /* clang-format off */
 static const config_key_t keys[] = {
@@ -34,6 +37,13 @@ static const config_key_t keys[] = {
     INSOLE_ZERO_VELOCITY_KEYS(ZERO_VELOCITY_ROW)
     INSOLE_ZUPT_EKF_KEYS(ZUPT_EKF_ROW)
     INSOLE_STRIDE_KEYS(STRIDE_ROW)
+    INSOLE_FOOT_FUSION_KEYS(FOOT_FUSION_ROW)
+    INSOLE_PARTICLE_FILTER_KEYS(PARTICLE_FILTER_ROW)
+    INSOLE_PARTICLE_FILTER_KEYS(TWO_ORDER_ROW)
+    INSOLE_RSS_FIELD_KEYS(RSS_FIELD_ROW)
+    INSOLE_PROPAGATION_KEYS(PROPAGATION_ROW)
+    INSOLE_RSS_FIX_KEYS(RSS_FIX_ROW)
+    INSOLE_RANGE_FIX_KEYS(RANGE_FIX_ROW)
 };
 /* clang-format on */
 
@@ -217,10 +227,12 @@ void config_print(FILE *file, const settings_t *settings)
 
 void config_print_table(FILE *file)
 {
+    settings_t defaults;
+    settings_init(&defaults);
     fputs("| key | default | range | unit | meaning |\n|---|---|---|---|---|\n", file);
     for (size_t i = 0u; i < KEY_COUNT; i++) {
         fprintf(file, "| `%s` | ", keys[i].name);
-        print_value(file, &keys[i], keys[i].value);
+        print_value(file, &keys[i], config_value(&defaults, &keys[i]));
         fputs(" | ", file);
         print_range(file, &keys[i], ", ");
         fprintf(file, " | %s | %s |\n", unit_of(&keys[i]), keys[i].text);

@@ -16,7 +16,7 @@ typedef struct {
     const char *name; /**< section.key */
     config_kind_t kind;
     size_t offset; /**< in settings_t */
-    double value, low, high;
+    double low, high;
     const char *unit; /**< of a choice: its names, separated by | */
     const char *text;
 } config_key_t;

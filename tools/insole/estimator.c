@@ -4,132 +4,210 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert.h"
 #include "memory.h"
-#include "number.h"
 
 /* Fixes that are smoothed together, and how many of them wait for the next window: at 200 Hz 164 s
  * and 41 s, far longer than a later stance reaches back. */
 enum { SMOOTH_FIXES = 32768, SMOOTH_KEEP = 8192 };
 
-/* The library counts from 0 and never back; a log may begin before its own zero. */
-static const uint64_t log_zero_us = UINT64_C(1) << 62;
+/* More than a foot makes, and more than a sensor gives, in a second of lag. */
+enum { LAG_STRIDES = 4, LAG_FIXES = 2000 };
 
-static uint64_t to_library(int64_t t_us)
-{
-    return log_zero_us + (uint64_t)t_us;
-}
+/* At a desk all the work is done at once. */
+static const uint32_t whole_work = UINT32_MAX;
 
-static int64_t to_log(uint64_t t_us)
-{
-    return (int64_t)(t_us - log_zero_us);
-}
+/* ---- init ------------------------------------------------------------------------------- */
 
-/* What does not fit a real becomes not-a-number, which the library knows how to refuse. */
-static insole_real_t to_real(double value)
+static void lend_memory(estimator_t *estimator, insole_real_t lag_s)
 {
-    return fabs(value) <= (double)INSOLE_REAL_MAX ? (insole_real_t)value
-                                                  : (insole_real_t)NUMBER_UNKNOWN;
-}
-
-bool estimator_init(estimator_t *estimator, const settings_t *settings, bool is_smooth)
-{
-    memset(estimator, 0, sizeof *estimator);
-    estimator->sensor = settings->sensor;
-    estimator->is_smooth = is_smooth;
-    if (is_smooth) {
-        estimator->nodes = memory_new(SMOOTH_FIXES, sizeof *estimator->nodes);
-        estimator->fixes = memory_new(SMOOTH_FIXES, sizeof *estimator->fixes);
-        (void)insole_foot_smooth_init(&estimator->past, estimator->nodes, estimator->fixes,
-                                      SMOOTH_FIXES);
+    insole_fusion_memory_t *memory = &estimator->memory;
+    memory->count = estimator->setup.particles;
+    memory->particles = memory_new(memory->count, sizeof *memory->particles);
+    if (lag_s > INSOLE_R(0.0)) {
+        memory->past_strides = 2u + (uint32_t)ceil((double)lag_s) * LAG_STRIDES;
+        memory->past =
+            memory_new((size_t)memory->count * memory->past_strides, sizeof *memory->past);
+        memory->late_count = (1u + (uint32_t)ceil((double)lag_s)) * LAG_FIXES;
+        memory->late = memory_new(memory->late_count, sizeof *memory->late);
     }
-    return insole_foot_tracker_init(&estimator->foot, &settings->foot) == INSOLE_OK;
+}
+
+static void set_up_smoothing(estimator_t *estimator)
+{
+    estimator->nodes = memory_new(SMOOTH_FIXES, sizeof *estimator->nodes);
+    estimator->fixes = memory_new(SMOOTH_FIXES, sizeof *estimator->fixes);
+    (void)insole_foot_smooth_init(&estimator->past, estimator->nodes, estimator->fixes,
+                                  SMOOTH_FIXES);
+}
+
+static void set_method(insole_foot_fusion_config_t *config, method_t method)
+{
+    if (method_is_first_order(method)) {
+        config->foot.method = method == METHOD_PDR ? INSOLE_FOOT_PDR : INSOLE_FOOT_INS;
+    } else {
+        config->method = method == METHOD_BEST        ? INSOLE_FUSION_BEST
+                         : method == METHOD_TWO_ORDER ? INSOLE_FUSION_TWO_ORDER
+                                                      : INSOLE_FUSION_WIFI;
+    }
+}
+
+/* The caller's building, with the settings of this run. */
+static bool take_building(estimator_t *estimator)
+{
+    const settings_t *settings = estimator->setup.settings;
+    if (estimator->setup.building != NULL) {
+        estimator->building = *estimator->setup.building;
+    }
+    estimator->building.propagation = &settings->propagation;
+    estimator->building.rss_fix = &settings->fusion.rss_fix;
+    return estimator->building.plan != NULL || estimator->building.ap_count > 0u;
+}
+
+bool estimator_init(estimator_t *estimator, const estimator_setup_t *setup)
+{
+    insole_foot_fusion_config_t config = setup->settings->fusion;
+    memset(estimator, 0, sizeof *estimator);
+    estimator->setup = *setup;
+    estimator->radio_row.state = INSOLE_FIX_SEARCH;
+    bool knows_building = take_building(estimator);
+    set_method(&config, setup->method);
+    estimator->is_fused =
+        setup->method == METHOD_TWO_ORDER || (setup->method == METHOD_BEST && knows_building);
+    if (!estimator->is_fused && setup->method != METHOD_WIFI) {
+        if (setup->is_smooth) {
+            set_up_smoothing(estimator);
+        }
+        return insole_foot_tracker_init(&estimator->fusion.foot, &config.foot) == INSOLE_OK;
+    }
+    lend_memory(estimator, config.lag_s);
+    return insole_propagation_check(&setup->settings->propagation) == INSOLE_OK &&
+           insole_foot_fusion_init(&estimator->fusion, &config, &estimator->memory,
+                                   &estimator->building, setup->seed) == INSOLE_OK;
 }
 
 void estimator_free(estimator_t *estimator)
 {
+    radio_group_free(&estimator->radio);
+    free(estimator->memory.particles);
+    free(estimator->memory.past);
+    free(estimator->memory.late);
     free(estimator->nodes);
     free(estimator->fixes);
 }
+
+static bool is_wifi(const estimator_t *estimator)
+{
+    return estimator->setup.method == METHOD_WIFI;
+}
+
+/* ---- records in ------------------------------------------------------------------------- */
 
 static void push_start(estimator_t *estimator, const record_t *record)
 {
     const double *v = record->value;
     insole_start_t start;
     memset(&start, 0, sizeof start);
-    start.t_us = to_library(record->t_us);
+    start.t_us = to_library_us(record->t_us);
     start.x_m = to_real(v[0]);
     start.y_m = to_real(v[1]);
     start.has_heading = !isnan(v[2]);
     start.heading_rad = start.has_heading ? to_real(v[2]) : INSOLE_R(0.0);
     start.sigma_m = to_real(isnan(v[3]) ? START_SIGMA_M : v[3]);
     start.sigma_rad = to_real(isnan(v[4]) ? START_SIGMA_RAD : v[4]);
-    (void)insole_foot_tracker_start(&estimator->foot, &start);
+    if (estimator->is_fused) {
+        (void)insole_foot_fusion_start(&estimator->fusion, &start);
+    } else {
+        (void)insole_foot_tracker_start(&estimator->fusion.foot, &start);
+    }
 }
 
 static void push_imu(estimator_t *estimator, const record_t *record)
 {
     const double *v = record->value;
-    insole_imu_t imu = {to_library(record->t_us),
+    insole_imu_t imu = {to_library_us(record->t_us),
                         {to_real(v[0]), to_real(v[1]), to_real(v[2])},
                         {to_real(v[3]), to_real(v[4]), to_real(v[5])}};
-    settings_correct(&estimator->sensor, &imu);
-    (void)insole_foot_tracker_imu(&estimator->foot, &imu);
+    bool has_leapt = estimator->has_imu && record->t_us - estimator->imu_us > RADIO_AHEAD_US;
+    estimator->has_imu = true;
+    estimator->imu_us = record->t_us;
+    if (is_wifi(estimator)) {
+        estimator->is_due = !has_leapt;
+        return;
+    }
+    settings_correct(&estimator->setup.settings->sensor, &imu);
+    (void)insole_foot_tracker_imu(&estimator->fusion.foot, &imu);
+}
+
+/* A fix of `wifi` is of the time when the scan came; else it is told when it was heard. */
+static void push_scan(estimator_t *estimator, const radio_group_t *radio)
+{
+    insole_scan_t scan = {to_library_us(radio->t_us) - (is_wifi(estimator) ? 0u : radio->age_us),
+                          radio->rss, (uint32_t)radio->rss_count};
+    estimator->counts.scans++;
+    (void)insole_foot_fusion_scan(&estimator->fusion, &scan);
+}
+
+static void push_ranges(estimator_t *estimator, const radio_group_t *radio)
+{
+    for (size_t i = 0u; i < radio->range_count; i++) {
+        radio->range[i].t_us = to_library_us(radio->t_us);
+    }
+    estimator->counts.ranges += radio->range_count;
+    (void)insole_foot_fusion_ranges(&estimator->fusion, radio->range, (uint32_t)radio->range_count);
+}
+
+static void hand_on_radio(estimator_t *estimator)
+{
+    const radio_group_t *radio = &estimator->radio;
+    bool is_wild = estimator->has_imu && radio->t_us - estimator->imu_us > RADIO_AHEAD_US;
+    estimator->counts.wild += is_wild ? 1u : 0u;
+    if (!is_wild && radio->range_count > 0u) {
+        push_ranges(estimator, radio);
+    }
+    if (!is_wild && radio->rss_count > 0u && !estimator->fusion.tells_radio) {
+        push_scan(estimator, radio);
+    }
+    radio_group_clear(&estimator->radio);
+}
+
+static bool uses_radio(const estimator_t *estimator)
+{
+    return (estimator->is_fused || is_wifi(estimator)) && estimator->building.ap_count > 0u;
 }
 
 void estimator_push(estimator_t *estimator, const record_t *record)
 {
+    if (radio_group_ends(&estimator->radio, record)) {
+        hand_on_radio(estimator);
+    }
     if (record->kind == RECORD_IMU) {
         push_imu(estimator, record);
     } else if (record->kind == RECORD_START) {
         push_start(estimator, record);
+    } else if ((record->kind == RECORD_RSS || record->kind == RECORD_RANGE) &&
+               uses_radio(estimator)) {
+        radio_group_add(&estimator->radio, record);
     }
 }
 
 void estimator_finish(estimator_t *estimator)
 {
-    (void)insole_foot_tracker_finish(&estimator->foot);
+    if (!radio_group_is_empty(&estimator->radio)) {
+        hand_on_radio(estimator);
+    }
+    if (estimator->is_fused) {
+        (void)insole_foot_fusion_finish(&estimator->fusion);
+    } else {
+        (void)insole_foot_tracker_finish(&estimator->fusion.foot);
+    }
 }
 
-static void take_stride(estimator_t *estimator)
-{
-    insole_stride_t stride;
-    if (insole_foot_tracker_stride(&estimator->foot, &stride) != INSOLE_OK) {
-        return;
-    }
-    double heading = (double)stride.heading_rad + (double)estimator->foot.anchor.yaw_rad;
-    foot_event_t event = {to_log(stride.begin_us),
-                          to_log(stride.end_us),
-                          true,
-                          (double)stride.length_m,
-                          (double)stride.displacement_m.z,
-                          remainder(heading, 6.283185307179586),
-                          (double)stride.turn_rad,
-                          (double)stride.model_length_m,
-                          (double)stride.accel_min_mps2,
-                          (double)stride.accel_max_mps2};
-    estimator->stride = event;
-    estimator->has_stride = true;
-}
-
-/* A stance has ended when the foot no longer stands as it did at the fix before. */
-static void watch_stance(estimator_t *estimator, int64_t t_us)
-{
-    bool is_still = estimator->foot.was_still;
-    if (is_still && !estimator->is_still) {
-        estimator->stance_begin_us = t_us;
-    }
-    if (!is_still && estimator->is_still) {
-        memset(&estimator->stance, 0, sizeof estimator->stance);
-        estimator->stance.begin_us = estimator->stance_begin_us;
-        estimator->stance.end_us = estimator->fix_us;
-        estimator->has_stance = true;
-    }
-    estimator->is_still = is_still;
-}
+/* ---- fixes out -------------------------------------------------------------------------- */
 
 static void convert_fix(const insole_fix_t *from, track_row_t *to)
 {
-    to->t_us = to_log(from->t_us);
+    to->t_us = to_log_us(from->t_us);
     to->x_m = (double)from->position_m.x;
     to->y_m = (double)from->position_m.y;
     to->z_m = (double)from->position_m.z;
@@ -144,27 +222,86 @@ static void convert_fix(const insole_fix_t *from, track_row_t *to)
 
 static void remember(estimator_t *estimator)
 {
-    const insole_foot_tracker_t *foot = &estimator->foot;
+    const insole_foot_tracker_t *foot = &estimator->fusion.foot;
     if (insole_foot_smooth_push(&estimator->past, foot, &estimator->fix) == INSOLE_ERR_ROOM) {
         (void)insole_foot_smooth_run(&estimator->past, SMOOTH_KEEP);
         estimator->is_held = true;
     }
 }
 
-bool estimator_step(estimator_t *estimator)
+static bool step_first_order(estimator_t *estimator)
 {
-    if (insole_foot_tracker_next(&estimator->foot, &estimator->fix) != INSOLE_OK) {
+    if (insole_foot_tracker_next(&estimator->fusion.foot, &estimator->fix) != INSOLE_OK) {
         return false;
     }
-    take_stride(estimator);
-    watch_stance(estimator, to_log(estimator->fix.t_us));
-    estimator->fix_us = to_log(estimator->fix.t_us);
-    if (estimator->is_smooth) {
+    static const foot_news_t none;
+    foot_events_watch(&estimator->events, &estimator->fusion, none, to_log_us(estimator->fix.t_us));
+    if (estimator->nodes != NULL) {
         remember(estimator);
     } else {
         estimator->has_fix = true;
     }
     return true;
+}
+
+/* Time of the newest fix of the first order: with a lag the one that leaves is older. */
+static int64_t newest_us(const estimator_t *estimator)
+{
+    const insole_foot_late_t *late = &estimator->fusion.late;
+    bool lags = late->count > 0u;
+    return to_log_us(lags ? late->rows[(late->first + late->count - 1u) % late->room].fix.t_us
+                          : estimator->fix.t_us);
+}
+
+static bool step_fused(estimator_t *estimator)
+{
+    insole_foot_fusion_t *fusion = &estimator->fusion;
+    uint32_t fixes = fusion->foot.counts.fixes, starts = fusion->counts.starts;
+    estimator->has_fix = insole_foot_fusion_next(fusion, &estimator->fix) == INSOLE_OK;
+    bool has_work = fusion->working;
+    foot_news_t news = foot_events_news(fusion, starts);
+    estimator->counts.worked_in += news.has_scan || news.has_ranges ? 1u : 0u;
+    while (insole_foot_fusion_work(fusion, whole_work)) {
+    }
+    bool has_moved = fusion->foot.counts.fixes != fixes;
+    if (has_moved) {
+        foot_events_watch(&estimator->events, fusion, news, newest_us(estimator));
+    }
+    return estimator->has_fix || has_work || has_moved;
+}
+
+/* Where radio last said, as of now. */
+static void hold_radio(estimator_t *estimator)
+{
+    track_row_t *row = &estimator->radio_row;
+    row->t_us = estimator->imu_us;
+    if (row->state == INSOLE_FIX_TRACK && row->t_us - estimator->radio_us > RADIO_FRESH_US) {
+        row->state = INSOLE_FIX_COAST;
+    }
+    estimator->is_due = false;
+}
+
+static bool step_wifi(estimator_t *estimator)
+{
+    if (insole_foot_fusion_next(&estimator->fusion, &estimator->fix) == INSOLE_OK) {
+        convert_fix(&estimator->fix, &estimator->radio_row);
+        estimator->radio_us = estimator->radio_row.t_us;
+        estimator->counts.worked_in++;
+    } else if (estimator->is_due) {
+        hold_radio(estimator);
+    } else {
+        return false;
+    }
+    estimator->has_fix = true;
+    return true;
+}
+
+bool estimator_step(estimator_t *estimator)
+{
+    if (is_wifi(estimator)) {
+        return step_wifi(estimator);
+    }
+    return estimator->is_fused ? step_fused(estimator) : step_first_order(estimator);
 }
 
 /* A fix that found no room is remembered once the older ones have left. */
@@ -175,7 +312,7 @@ static bool take_smooth(estimator_t *estimator, insole_fix_t *fix)
     }
     if (estimator->is_held) {
         estimator->is_held = false;
-        (void)insole_foot_smooth_push(&estimator->past, &estimator->foot, &estimator->fix);
+        (void)insole_foot_smooth_push(&estimator->past, &estimator->fusion.foot, &estimator->fix);
     }
     return false;
 }
@@ -183,31 +320,33 @@ static bool take_smooth(estimator_t *estimator, insole_fix_t *fix)
 bool estimator_take(estimator_t *estimator, track_row_t *fix)
 {
     insole_fix_t smoothed;
-    bool is_smooth = estimator->is_smooth && take_smooth(estimator, &smoothed);
+    bool is_smooth = estimator->nodes != NULL && take_smooth(estimator, &smoothed);
     if (!is_smooth && !estimator->has_fix) {
         return false;
     }
-    convert_fix(is_smooth ? &smoothed : &estimator->fix, fix);
+    if (is_wifi(estimator)) {
+        *fix = estimator->radio_row;
+    } else {
+        convert_fix(is_smooth ? &smoothed : &estimator->fix, fix);
+    }
     estimator->has_fix = false;
     return true;
 }
 
 void estimator_settle(estimator_t *estimator)
 {
-    if (estimator->is_smooth) {
+    if (estimator->nodes != NULL) {
         (void)insole_foot_smooth_run(&estimator->past, 0u);
     }
 }
 
 bool estimator_event(estimator_t *estimator, foot_event_t *event)
 {
-    if (estimator->has_stance) {
-        *event = estimator->stance;
-        estimator->has_stance = false;
-        return true;
-    }
-    bool has_stride = estimator->has_stride;
-    *event = has_stride ? estimator->stride : *event;
-    estimator->has_stride = false;
-    return has_stride;
+    return foot_events_take(&estimator->events, event);
+}
+
+bool estimator_is_placed(const estimator_t *estimator)
+{
+    return is_wifi(estimator) ? estimator->fusion.has_radio
+                              : estimator->is_fused && estimator->fusion.particles.has_fix;
 }

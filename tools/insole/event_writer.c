@@ -17,9 +17,9 @@ static void write_number(FILE *file, double value, int decimals)
 void event_writer_row(FILE *file, const foot_event_t *event)
 {
     char begin[NUMBER_ROOM], end[NUMBER_ROOM];
-    fprintf(file, "%s,%s,%s", event->is_stride ? "stride" : "stance",
-            number_time(begin, event->begin_us), number_time(end, event->end_us));
-    if (event->is_stride) {
+    fprintf(file, "%s,%s,%s", foot_event_name(event->kind), number_time(begin, event->begin_us),
+            number_time(end, event->end_us));
+    if (event->kind == EVENT_STRIDE) {
         write_number(file, event->length_m, 4);
         write_number(file, event->height_m, 4);
         write_number(file, event->heading_rad, 5);

@@ -1,8 +1,9 @@
-/** @file event_writer.h  Stances and strides as a CSV table.
+/** @file event_writer.h  What happened, as a CSV table.
  *
  *      event,begin,end,length,height,heading,turn,model_length
  *
- *  Seconds, metres, radians; of a stance only the times are told.
+ *  The event is stance, stride, start, scan, ranges, resampling, redraw or recovery. Seconds,
+ * metres, radians; of all but strides only the times are told.
  *
  *  SPDX-License-Identifier: MIT
  */

@@ -92,20 +92,65 @@ static void note_gravity(notes_t *notes, const replay_facts_t *facts)
 
 static void note_start(notes_t *notes, const replay_facts_t *facts)
 {
+    const replay_fusion_t *fusion = &facts->fusion;
+    char distance[NUMBER_ROOM];
     if (!facts->knows_place) {
         note(notes, "no start is known: the track begins at (0, 0), and x is where the sensor's "
                     "x axis pointed (--start x,y,heading)");
     } else if (!facts->knows_heading) {
         note(notes, "the start tells no heading: x is where the sensor's x axis pointed");
     }
+    if (fusion->starts_outside) {
+        note(notes,
+             "the start lies outside the plan, %s%s m from the nearest wall: are both of the same "
+             "map?",
+             fusion->start_distance_m < REPLAY_FAR_M ? "" : "more than ",
+             number_fixed(distance, fusion->start_distance_m, 1));
+    }
+}
+
+static void note_radio(notes_t *notes, const replay_facts_t *facts)
+{
+    const replay_fusion_t *fusion = &facts->fusion;
+    if (fusion->aps == 0u && fusion->ids > 0u) {
+        note(notes,
+             "the log hears %lu access points: their places (--aps FILE) would hold the "
+             "track",
+             fusion->ids);
+    }
+    if (fusion->aps > 0u && fusion->ids > 0u && fusion->unknown_ids == fusion->ids) {
+        note(notes, "none of the access points heard is among those known: are the ids the same?");
+    }
+    if (fusion->radio.wild > 0u) {
+        note(notes,
+             "radio was left out %lu times: its stamps are a minute and more ahead of the "
+             "readings",
+             fusion->radio.wild);
+    }
+}
+
+/* Now and then all particles die of a wall that is drawn a little off; often, of a wrong plan. */
+static void note_cloud(notes_t *notes, const replay_facts_t *facts)
+{
+    const insole_particle_counts_t *counts = &facts->fusion.particles;
+    if (counts->recovered > 3u && counts->recovered > counts->strides / 10u) {
+        note(notes, "the track went astray %lu times: do plan and start fit the walk?",
+             (unsigned long)counts->recovered);
+    }
 }
 
 void notes_take(notes_t *notes, const replay_facts_t *facts)
 {
     notes->count = 0;
-    note_stances(notes, facts);
-    note_rate(notes, facts);
-    note_gyro(notes, facts);
-    note_gravity(notes, facts);
-    note_start(notes, facts);
+    if (facts->method != METHOD_WIFI) {
+        note_stances(notes, facts);
+        note_rate(notes, facts);
+        note_gyro(notes, facts);
+        note_gravity(notes, facts);
+        note_start(notes, facts);
+    }
+    if (!method_is_first_order(facts->method)) {
+        note_radio(notes, facts);
+        note_cloud(notes, facts);
+    }
 }

@@ -129,6 +129,21 @@ bool options_number(const arguments_t *arguments, const char *name, double low, 
     return true;
 }
 
+bool options_whole(const arguments_t *arguments, const char *name, int64_t low, int64_t high,
+                   int64_t *number, failure_t *failure)
+{
+    const char *text = options_value(arguments, name);
+    if (text == NULL || number_parse_whole(text, low, high, number)) {
+        return true;
+    }
+    return high == INT64_MAX
+               ? failure_usage(failure, "insole %s: --%s %.40s: expected a whole number",
+                               arguments->command, name, text)
+               : failure_usage(failure,
+                               "insole %s: --%s %.40s: expected a whole number from %lld to %lld",
+                               arguments->command, name, text, (long long)low, (long long)high);
+}
+
 void options_free(arguments_t *arguments)
 {
     free(arguments->given);

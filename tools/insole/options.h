@@ -50,6 +50,10 @@ const char *options_value(const arguments_t *arguments, const char *name);
 bool options_number(const arguments_t *arguments, const char *name, double low, double high,
                     double *number, failure_t *failure);
 
+/** The same for a whole number. */
+bool options_whole(const arguments_t *arguments, const char *name, int64_t low, int64_t high,
+                   int64_t *number, failure_t *failure);
+
 void options_free(arguments_t *arguments);
 
 #endif

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert.h"
 #include "memory.h"
 #include "progress.h"
 #include "row_maker.h"
@@ -22,8 +23,8 @@ static bool give_events(run_t *run, failure_t *failure)
 {
     foot_event_t event;
     while (estimator_event(&run->estimator, &event)) {
-        run->facts->strides += event.is_stride ? 1u : 0u;
-        run->facts->walked_m += event.is_stride ? event.length_m : 0.0;
+        run->facts->strides += event.kind == EVENT_STRIDE ? 1u : 0u;
+        run->facts->walked_m += event.length_m;
         if (run->sink->event != NULL && !run->sink->event(run->sink->context, &event, failure)) {
             return false;
         }
@@ -42,6 +43,16 @@ static bool give_rows(run_t *run, failure_t *failure)
     return true;
 }
 
+/* Radio has put a track on the map that no start did. */
+static void note_place(run_t *run, const track_row_t *fix)
+{
+    if (!run->facts->knows_place && fix->state == INSOLE_FIX_TRACK &&
+        estimator_is_placed(&run->estimator)) {
+        run->facts->knows_place = run->facts->knows_heading = true;
+        run->facts->start_us = fix->t_us;
+    }
+}
+
 /* The fixes that are ready. */
 static bool give_fixes(run_t *run, failure_t *failure)
 {
@@ -51,6 +62,8 @@ static bool give_fixes(run_t *run, failure_t *failure)
         run->facts->last_us = fix.t_us;
         run->facts->last = fix;
         run->facts->fixes++;
+        run->facts->states[fix.state]++;
+        note_place(run, &fix);
         row_maker_push(&run->rows, &fix);
         if (!give_rows(run, failure)) {
             return false;
@@ -69,16 +82,36 @@ static bool drain(run_t *run, failure_t *failure)
     return is_good;
 }
 
+/* A start where the plan says that nobody can be. */
+static void check_start(run_t *run, const record_t *start)
+{
+    const insole_floor_plan_t *plan =
+        run->request->site != NULL ? run->request->site->building.plan : NULL;
+    insole_real_t x_m = to_real(start->value[0]), y_m = to_real(start->value[1]);
+    insole_real_t distance_m = (insole_real_t)REPLAY_FAR_M;
+    if (plan != NULL && !insole_floor_plan_inside(plan, x_m, y_m)) {
+        (void)insole_floor_plan_clearance(plan, x_m, y_m, distance_m, &distance_m);
+        run->facts->fusion.starts_outside = true;
+        run->facts->fusion.start_distance_m = (double)distance_m;
+    }
+}
+
 static void tell_start(run_t *run, const record_t *start)
 {
+    if (run->request->method == METHOD_WIFI) {
+        return;
+    }
     run->facts->start_us = run->facts->knows_place ? run->facts->start_us : start->t_us;
     run->facts->knows_place = true;
     run->facts->knows_heading = run->facts->knows_heading || !isnan(start->value[2]);
+    check_start(run, start);
     estimator_push(&run->estimator, start);
 }
 
+/* Of radio alone each fix is a row; the IMU makes rows due. */
 static void begin_at(run_t *run, int64_t first_us)
 {
+    row_maker_init(&run->rows, run->request->rate_hz);
     row_maker_begin(&run->rows, first_us);
     if (run->request->has_start) {
         record_t start = run->request->start;
@@ -98,12 +131,26 @@ static void push_reading(run_t *run, const record_t *imu)
     estimator_push(&run->estimator, imu);
 }
 
+/* Ids of the log become indexes of access points. */
+static void push_radio(run_t *run, const record_t *record)
+{
+    const replay_request_t *request = run->request;
+    record_t known = *record;
+    bool is_left_out = record->kind == RECORD_RSS ? request->no_rss : request->no_range;
+    if (request->site != NULL && !is_left_out) {
+        known.id = ap_file_number(&request->site->ap_file, &run->stream.session.ids, record->id);
+        estimator_push(&run->estimator, &known);
+    }
+}
+
 static void take_record(run_t *run, const record_t *record)
 {
     if (record->kind == RECORD_TRUTH) {
         track_add_record(&run->facts->truth, record);
     } else if (record->kind == RECORD_IMU) {
         push_reading(run, record);
+    } else if (record->kind == RECORD_RSS || record->kind == RECORD_RANGE) {
+        push_radio(run, record);
     } else if (record->kind == RECORD_START && !run->request->has_start &&
                !run->request->no_start) {
         tell_start(run, record);
@@ -138,32 +185,85 @@ static bool run_stream(run_t *run, failure_t *failure)
 static bool open_stream(run_t *run, failure_t *failure)
 {
     const replay_request_t *request = run->request;
-    return sensor_stream_open(&run->stream, request->logs, request->log_count, request->accel_unit,
-                              request->gyro_unit, failure) &&
-           (run->sink->begin == NULL ||
-            run->sink->begin(run->sink->context, &run->stream.session, failure));
+    bool is_good = sensor_stream_open(&run->stream, request->logs, request->log_count,
+                                      request->accel_unit, request->gyro_unit, failure);
+    run->stream.is_radio_enough = request->method == METHOD_WIFI;
+    return is_good && (run->sink->begin == NULL ||
+                       run->sink->begin(run->sink->context, &run->stream.session, failure));
+}
+
+/* ---- facts ------------------------------------------------------------------------------ */
+
+static void count_ids(const run_t *run, replay_fusion_t *facts)
+{
+    const id_table_t *ids = &run->stream.session.ids;
+    facts->ids = ids->count;
+    for (size_t i = 0u; i < ids->count && run->request->site != NULL; i++) {
+        uint32_t number = ap_file_number(&run->request->site->ap_file, ids, (uint32_t)i);
+        facts->unknown_ids += number == AP_FILE_UNKNOWN ? 1u : 0u;
+    }
+}
+
+static void copy_cloud(const insole_fusion_memory_t *memory, track_t *cloud)
+{
+    track_row_t row;
+    memset(&row, 0, sizeof row);
+    for (uint32_t i = 0u; i < memory->count; i++) {
+        if (insole_particle_lives(&memory->particles[i])) {
+            row.x_m = (double)memory->particles[i].x_m;
+            row.y_m = (double)memory->particles[i].y_m;
+            track_add(cloud, &row);
+        }
+    }
+}
+
+static void gather_fusion(const run_t *run, replay_fusion_t *facts)
+{
+    const estimator_t *estimator = &run->estimator;
+    const insole_particle_filter_t *particles = &estimator->fusion.particles;
+    const insole_building_t *building = &estimator->building;
+    facts->is_fused = estimator->is_fused || run->request->method == METHOD_WIFI;
+    facts->walls = building->plan != NULL ? building->plan->wall_count : 0u;
+    facts->aps = building->ap_count;
+    facts->radio = estimator->counts;
+    facts->counts = estimator->fusion.counts;
+    facts->particles = particles->counts;
+    facts->has_offset = particles->field.learned > 0u;
+    facts->offset_db = (double)particles->field.offset_db;
+    count_ids(run, facts);
+    if (particles->has_fix) {
+        copy_cloud(&estimator->memory, &facts->cloud);
+    }
 }
 
 static void gather_facts(run_t *run)
 {
-    const insole_foot_tracker_t *foot = &run->estimator.foot;
+    const insole_foot_tracker_t *foot = &run->estimator.fusion.foot;
     memcpy(run->facts->seen, run->stream.seen, sizeof run->facts->seen);
+    run->facts->method = run->request->method;
     run->facts->screen = foot->screen.counts;
     run->facts->foot = foot->counts;
     run->facts->gravity_mps2 = (double)foot->still_bias.gravity_mps2;
     run->facts->rests = foot->still_bias.rests;
+    gather_fusion(run, &run->facts->fusion);
 }
 
 bool replay_run(const replay_request_t *request, const replay_sink_t *sink, replay_facts_t *facts,
                 failure_t *failure)
 {
     run_t *run = memory_new(1u, sizeof *run);
+    const estimator_setup_t setup = {&request->settings,
+                                     request->method,
+                                     request->site != NULL ? &request->site->building : NULL,
+                                     request->particles,
+                                     request->seed,
+                                     request->is_smooth};
     memset(facts, 0, sizeof *facts);
     run->request = request;
     run->sink = sink;
     run->facts = facts;
-    row_maker_init(&run->rows, request->rate_hz);
-    bool is_good = estimator_init(&run->estimator, &request->settings, request->is_smooth) ||
+    row_maker_init(&run->rows, request->method == METHOD_WIFI ? 0.0 : request->rate_hz);
+    bool is_good = estimator_init(&run->estimator, &setup) ||
                    failure_input(failure, "insole: the tracker does not take these settings");
     is_good = is_good && open_stream(run, failure) && run_stream(run, failure);
     gather_facts(run);
@@ -176,4 +276,5 @@ bool replay_run(const replay_request_t *request, const replay_sink_t *sink, repl
 void replay_facts_free(replay_facts_t *facts)
 {
     track_free(&facts->truth);
+    track_free(&facts->fusion.cloud);
 }

@@ -7,12 +7,21 @@
 
 #include "estimator.h"
 #include "sensor_stream.h"
+#include "site.h"
+
+/** Particles of the cloud where nobody tells. */
+enum { REPLAY_PARTICLES = 500 };
 
 /** What is to be replayed, and how. */
 typedef struct {
     const char *const *logs; /**< files, folders or `-` */
     size_t log_count;
     settings_t settings;
+    method_t method;
+    const site_t *site;                 /**< NULL: nothing is known of the building */
+    uint32_t particles;                 /**< of the cloud */
+    uint64_t seed;                      /**< of its random numbers */
+    bool no_rss, no_range;              /**< those records do not count */
     const char *accel_unit, *gyro_unit; /**< NULL: m/s^2, rad/s */
     double rate_hz;                     /**< rows per second; 0: one per fix */
     bool is_smooth;                     /**< what comes after a moment counts for it too */
@@ -30,22 +39,42 @@ typedef struct {
     bool (*event)(void *context, const foot_event_t *event, failure_t *failure);
 } replay_sink_t;
 
+/** What became of radio and cloud. */
+typedef struct {
+    bool is_fused; /**< building or radio made the position */
+    unsigned long walls, aps;
+    unsigned long ids, unknown_ids; /**< of access points in the logs */
+    radio_counts_t radio;
+    insole_fusion_counts_t counts;
+    insole_particle_counts_t particles;
+    bool has_offset;
+    double offset_db; /**< the receiver hears so much stronger than expected */
+    track_t cloud;    /**< the living particles at the end, the heaviest last; only places */
+    bool starts_outside;
+    double start_distance_m; /**< then: from the nearest wall, at most REPLAY_FAR_M */
+} replay_fusion_t;
+
+#define REPLAY_FAR_M 1000.0
+
 /** What is known after a replay. */
 typedef struct {
+    method_t method;
     unsigned long seen[RECORD_KINDS]; /**< records in the logs */
     unsigned long readings;           /**< IMU readings handed to the tracker */
     int64_t first_us, last_us;        /**< of the fixes */
     unsigned long fixes, strides;
-    double walked_m;                 /**< sum of the strides */
-    double fastest_radps;            /**< largest turn rate */
-    bool knows_place, knows_heading; /**< by a start */
-    int64_t start_us;                /**< of the first start: what was before is not on the map */
-    track_row_t last;                /**< fix */
+    double walked_m;                           /**< sum of the strides */
+    double fastest_radps;                      /**< largest turn rate */
+    bool knows_place, knows_heading;           /**< by a start, or by radio */
+    int64_t start_us;                          /**< since when: what was before is not on the map */
+    unsigned long states[INSOLE_FIX_LOST + 1]; /**< fixes in each */
+    track_row_t last;                          /**< fix */
     insole_screen_counts_t screen;
     insole_foot_counts_t foot;
     double gravity_mps2; /**< as the tracker took it in the end */
     unsigned long rests; /**< of the sensor, not stances of a walk */
-    track_t truth;       /**< found in the logs; never shown to the tracker */
+    replay_fusion_t fusion;
+    track_t truth; /**< found in the logs; never shown to the tracker */
 } replay_facts_t;
 
 /** @param[out] facts  to be freed by replay_facts_free, also after a failure */

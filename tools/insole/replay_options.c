@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "replay_options.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "config_keys.h"
 #include "fields.h"
+#include "memory.h"
 #include "number.h"
+#include "site_folder.h"
 
 static bool apply_settings(const arguments_t *arguments, settings_t *settings, failure_t *failure)
 {
@@ -70,6 +73,73 @@ static bool check_tracker(const arguments_t *arguments, failure_t *failure)
     return true;
 }
 
+/* ---- second order ----------------------------------------------------------------------- */
+
+static bool apply_use(const arguments_t *arguments, replay_request_t *request, failure_t *failure)
+{
+    static const struct {
+        const char *text;
+        bool no_rss, no_range;
+    } choices[] = {{"rss,range", false, false},
+                   {"range,rss", false, false},
+                   {"rss", false, true},
+                   {"range", true, false}};
+    const char *use = options_value(arguments, "use");
+    for (size_t i = 0u; use != NULL && i < sizeof choices / sizeof choices[0]; i++) {
+        if (strcmp(use, choices[i].text) == 0) {
+            request->no_rss = choices[i].no_rss;
+            request->no_range = choices[i].no_range;
+            return true;
+        }
+    }
+    return use == NULL ||
+           failure_usage(failure, "insole %s: --use %.40s: expected rss, range or rss,range",
+                         arguments->command, use);
+}
+
+static bool apply_cloud(const arguments_t *arguments, replay_request_t *request, failure_t *failure)
+{
+    int64_t seed = 1, particles = REPLAY_PARTICLES;
+    double lag_s = (double)request->settings.fusion.lag_s;
+    if (!options_whole(arguments, "seed", 0, INT64_MAX, &seed, failure) ||
+        !options_whole(arguments, "particles", 1, INSOLE_CLOUD_PARTICLES_MAX, &particles,
+                       failure) ||
+        !options_number(arguments, "lag", 0.0, 60.0, &lag_s, failure)) {
+        return false;
+    }
+    request->seed = (uint64_t)seed;
+    request->particles = (uint32_t)particles;
+    request->settings.fusion.lag_s = (insole_real_t)lag_s;
+    return true;
+}
+
+/* What is told counts; of what is not, the folders that are replayed may hold it. */
+static bool open_site(const arguments_t *arguments, replay_request_t *request, failure_t *failure)
+{
+    site_folder_t found;
+    if (!site_folder_find(&found, arguments, failure)) {
+        return false;
+    }
+    bool is_good = true;
+    if (found.plan != NULL || found.aps != NULL) {
+        site_t *site = memory_new(1u, sizeof *site);
+        request->site = site;
+        is_good = site_open(site, found.plan, found.aps, &request->settings.propagation, failure);
+    }
+    site_folder_free(&found);
+    return is_good;
+}
+
+static bool apply_method(const arguments_t *arguments, replay_request_t *request,
+                         failure_t *failure)
+{
+    const char *method = options_value(arguments, "method");
+    request->method = method_of(&request->settings);
+    return method == NULL || method_parse(method, &request->method, failure);
+}
+
+/* ---- all together ----------------------------------------------------------------------- */
+
 bool replay_options_parse(const arguments_t *arguments, replay_request_t *request,
                           failure_t *failure)
 {
@@ -88,14 +158,46 @@ bool replay_options_parse(const arguments_t *arguments, replay_request_t *reques
     }
     return check_tracker(arguments, failure) &&
            apply_settings(arguments, &request->settings, failure) &&
-           apply_start(arguments, request, failure);
+           apply_method(arguments, request, failure) && apply_start(arguments, request, failure) &&
+           apply_use(arguments, request, failure) && apply_cloud(arguments, request, failure) &&
+           open_site(arguments, request, failure);
 }
 
-bool replay_options_method(replay_request_t *request, const char *method, failure_t *failure)
+bool replay_options_check(const arguments_t *arguments, const replay_request_t *request,
+                          failure_t *failure)
 {
-    failure_t what;
-    if (!config_set(&request->settings, "foot_tracker.method", method, &what)) {
-        return failure_usage(failure, "insole: --method: %s", what.text);
+    const char *name = method_name(request->method);
+    bool has_aps = request->site != NULL && request->site->building.ap_count > 0u;
+    if (request->method == METHOD_WIFI && !has_aps) {
+        return failure_usage(failure, "insole %s: --method wifi needs access points: --aps FILE",
+                             arguments->command);
+    }
+    if (options_has(arguments, "lag") && request->method == METHOD_BEST && request->site == NULL) {
+        return failure_usage(failure,
+                             "insole %s: --lag needs a building: --plan FILE, --aps FILE or both",
+                             arguments->command);
+    }
+    if (options_has(arguments, "lag") && options_has(arguments, "method") &&
+        (method_is_first_order(request->method) || request->method == METHOD_WIFI)) {
+        return failure_usage(failure, "insole %s: --lag is for best and two-order, not for %s",
+                             arguments->command, name);
+    }
+    if (request->is_smooth && !method_is_first_order(request->method) &&
+        !(request->method == METHOD_BEST && request->site == NULL)) {
+        return failure_usage(failure,
+                             "insole %s: --smooth is for ins and pdr: method %s with a building "
+                             "looks back by --lag SECONDS",
+                             arguments->command, name);
     }
     return true;
+}
+
+void replay_options_free(replay_request_t *request)
+{
+    if (request->site != NULL) {
+        site_t *site = (site_t *)request->site;
+        site_free(site);
+        free(site);
+    }
+    request->site = NULL;
 }

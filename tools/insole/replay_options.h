@@ -12,6 +12,14 @@
 /** Rows of an option_t list. */
 #define REPLAY_OPTIONS                                                                            \
     {"tracker", "foot", "which tracker; foot is the one there is (default)"},                     \
+    {"plan", "FILE", "floor plan: walls hold the track. A folder that is replayed brings its own\n"    \
+     "plan.csv, and its aps.csv"},                                                                \
+    {"aps", "FILE", "access points: signal strengths and ranges of the log hold the track"},      \
+    {"use", "rss,range", "which radio counts (default both)"},                                    \
+    {"seed", "N", "of the particles' random numbers (default 1); equal seeds give equal tracks"}, \
+    {"particles", "N", "how many there are (default 500)"},                                       \
+    {"lag", "SECONDS", "best, two-order: each position comes so late, smoothed by what came\n"    \
+     "after"},                                                                                    \
     {"config", "FILE", "settings: lines `key = value` (`insole config` prints them all)"},        \
     {"set", "KEY=VALUE", "one setting; may be given often, and counts more than --config"},       \
     {"start", "X,Y[,HEADING]", "where the walk begins [m], and its direction over the first two\n"\
@@ -27,11 +35,15 @@
      "free"}
 /* clang-format on */
 
-/** Fills a request from the options and operands, which are the logs. */
+/** Fills a request from the options and operands, which are the logs; reads the building.
+ *  @param request  stays where it is until replay_options_free, also after a failure */
 bool replay_options_parse(const arguments_t *arguments, replay_request_t *request,
                           failure_t *failure);
 
-/** Sets the method of the request's tracker. */
-bool replay_options_method(replay_request_t *request, const char *method, failure_t *failure);
+/** Can the request's method do with what is given? */
+bool replay_options_check(const arguments_t *arguments, const replay_request_t *request,
+                          failure_t *failure);
+
+void replay_options_free(replay_request_t *request);
 
 #endif

@@ -25,6 +25,16 @@ static bool refuse_mixture(const sensor_stream_t *stream, failure_t *failure)
     return true;
 }
 
+static read_t check_radio(const sensor_stream_t *stream, failure_t *failure)
+{
+    if (stream->seen[RECORD_RSS] + stream->seen[RECORD_RANGE] > 0u) {
+        return READ_END;
+    }
+    failure_input(failure, "%s: no rss or range record in the session: expected rss,t,id,dbm",
+                  stream->session.logs[0]->reader.lines.name);
+    return READ_FAILED;
+}
+
 /* A session that nothing can be made of. */
 static read_t check_end(const sensor_stream_t *stream, failure_t *failure)
 {
@@ -32,6 +42,9 @@ static read_t check_end(const sensor_stream_t *stream, failure_t *failure)
     const unsigned long *seen = stream->seen;
     if (!units_finish(&stream->units, failure)) {
         return READ_FAILED;
+    }
+    if (stream->is_radio_enough) {
+        return check_radio(stream, failure);
     }
     if (seen[RECORD_IMU] > 0u || (seen[RECORD_ACC] > 0u && seen[RECORD_GYR] > 0u)) {
         return READ_END;

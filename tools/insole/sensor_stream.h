@@ -20,6 +20,7 @@ typedef struct {
     units_t units;
     imu_pairer_t pairer;
     unsigned long seen[RECORD_KINDS]; /**< records in the logs, by kind */
+    bool is_radio_enough; /**< signal strengths or ranges must be there instead of IMU readings */
     bool has_ended;
 } sensor_stream_t;
 
@@ -28,7 +29,7 @@ bool sensor_stream_open(sensor_stream_t *stream, const char *const *paths, size_
                         const char *accel_unit, const char *gyro_unit, failure_t *failure);
 
 /** Fails for a malformed line, for units that look wrong, and at the end of a session that
- *  held no IMU readings. */
+ *  nothing can be made of. */
 read_t sensor_stream_next(sensor_stream_t *stream, record_t *record, failure_t *failure);
 
 void sensor_stream_close(sensor_stream_t *stream);

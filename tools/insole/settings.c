@@ -6,7 +6,8 @@ static const sensor_config_t sensor_defaults = {SENSOR_KEYS(INSOLE_CONFIG_DEFAUL
 void settings_init(settings_t *settings)
 {
     settings->sensor = sensor_defaults;
-    settings->foot = insole_foot_tracker_defaults;
+    settings->fusion = insole_foot_fusion_defaults;
+    settings->propagation = insole_propagation_defaults;
 }
 
 void settings_correct(const sensor_config_t *sensor, insole_imu_t *imu)

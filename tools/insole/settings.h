@@ -5,7 +5,7 @@
 #ifndef INSOLE_HOST_SETTINGS_H
 #define INSOLE_HOST_SETTINGS_H
 
-#include "insole/track/foot_tracker.h"
+#include "insole/track/foot_fusion.h"
 
 /* clang-format off */
 /** What the program does to the readings of a sensor before the library sees them; firmware does
@@ -29,7 +29,8 @@ typedef struct {
 
 typedef struct {
     sensor_config_t sensor;
-    insole_foot_tracker_config_t foot;
+    insole_foot_fusion_config_t fusion; /**< holds those of the first order, `foot` */
+    insole_propagation_config_t propagation;
 } settings_t;
 
 void settings_init(settings_t *settings);

@@ -8,6 +8,7 @@
 #include "number.h"
 #include "record_line.h"
 #include "score_print.h"
+#include "summary_fusion.h"
 
 /* One counter of the screen: what happened to how many readings. */
 typedef struct {
@@ -63,6 +64,9 @@ static void print_walk(FILE *file, const replay_facts_t *facts)
     fprintf(file, "  duration       %s s, %lu readings at %s Hz\n",
             number_fixed(a, duration_s(facts), 1), facts->readings,
             number_fixed(b, notes_rate_hz(facts), 1));
+    if (facts->method == METHOD_WIFI) {
+        return; /* nobody looked at the foot */
+    }
     fprintf(file, "  distance       %s m in %lu strides\n", number_fixed(a, facts->walked_m, 2),
             facts->strides);
     fprintf(file, "  foot still     %s %% of the time, in %lu stances\n",
@@ -103,6 +107,7 @@ void summary_print(FILE *file, const summary_t *summary)
     notes_t notes;
     fprintf(file, "%s tracker, method %s\n", summary->tracker, summary->method);
     print_walk(file, facts);
+    summary_fusion_print(file, summary);
     print_last(file, &facts->last);
     list_troubles(&facts->screen, troubles);
     print_troubles(file, "  refused        ", troubles, false);
@@ -180,6 +185,7 @@ void summary_json(FILE *file, const summary_t *summary)
     json_whole(&json, "stances", (long long)facts->foot.stances);
     json_number(&json, "still_share", notes_still_share(facts), 4);
     json_last(&json, &facts->last);
+    summary_fusion_json(&json, summary);
     json_troubles(&json, &facts->screen, "refused", false);
     json_troubles(&json, &facts->screen, "repaired", true);
     json_lists(&json, facts);

@@ -12,6 +12,7 @@ typedef struct {
     const char *tracker, *method;
     const replay_facts_t *facts;
     const score_t *score; /**< NULL: there was no truth */
+    const site_t *site;   /**< NULL: nothing is known of the building */
 } summary_t;
 
 void summary_print(FILE *file, const summary_t *summary);
