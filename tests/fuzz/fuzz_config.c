@@ -18,7 +18,11 @@ static void check_settings(const settings_t *settings)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     settings_t settings;
-    insole_foot_tracker_t tracker;
+    static insole_foot_fusion_t tracker;
+    static insole_particle_t particle;
+    static insole_spot_t past;
+    static insole_late_row_t late;
+    const insole_fusion_memory_t memory = {&particle, 1u, &past, 1u, &late, 1u};
     failure_t failure = {EXIT_DONE, ""};
     settings_init(&settings);
     if (!config_read_file(&settings, fuzz_file(data, size), "config", &failure)) {
@@ -27,7 +31,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                    "the message says where and what");
     }
     check_settings(&settings);
-    fuzz_claim(insole_foot_tracker_init(&tracker, &settings.fusion.foot) == INSOLE_OK,
+    fuzz_claim(insole_foot_fusion_init(&tracker, &settings.fusion, &memory, NULL, 1u) ==
+                       INSOLE_OK &&
+                   insole_propagation_check(&settings.propagation) == INSOLE_OK,
                "the library takes what was set");
     return 0;
 }

@@ -111,7 +111,7 @@ refuses 2 'insole replay: --rate 5000: expected a number from 0 to 1000' replay 
 refuses 2 'insole replay: --rate fast: expected a number from 0 to 1000' replay walk.csv --rate fast
 refuses 2 'insole: --format xml: expected csv, tum or geojson' replay walk.csv --format xml
 refuses 2 'insole: --align sim3: expected none, yaw or se2' replay walk.csv --align sim3
-refuses 2 'insole: --method: foot_tracker.method: "gps" is not one of ins|pdr' \
+refuses 2 'insole: --method gps: expected ins, pdr, wifi, two-order or best' \
     replay walk.csv --method gps
 refuses 2 'insole replay: --tracker hand: expected foot' replay walk.csv --tracker hand
 refuses 2 'insole: --accel-unit ft: expected mps2, g or mg' replay walk.csv --accel-unit ft
@@ -165,7 +165,8 @@ is err 'torn.csv:3002: too few fields: expected imu,t,ax,ay,az,gx,gy,gz'
 
 run replay walk.csv --out track.csv --events events.csv --plot plot.svg
 status_is 0; empty out
-has err 'foot tracker, method ins'
+has err 'foot tracker, method best'
+has err '  building       nothing known (--plan, --aps)'
 has err '  duration       15.0 s, 3001 readings at 200.0 Hz'
 has err ' in 10 strides'
 has err '  refused        none'
@@ -179,6 +180,9 @@ has plot.svg '</svg>'
 
 run replay walk.csv
 status_is 0; empty out
+run replay walk.csv --method ins --out ins.csv
+has err 'foot tracker, method ins'
+cmp -s ins.csv track.csv || fail 'best without a building is not ins'
 run replay walk.csv --out -
 status_is 0
 cmp -s out track.csv || fail 'standard output is not what --out writes'
@@ -256,6 +260,119 @@ if [ -w /dev/full ]; then
     is err '/dev/full: cannot write: No space left on device'
 fi
 
+# ---- replay: building and radio ------------------------------------------------------------
+
+# A room about the walk, and radio that is heard once a second by three access points.
+printf 'loss,4\noutline,-20,-20,20,-20,20,20,-20,20\n' >plan.csv
+printf 'id,x,y\nA,-5,-5\nB,8,-5\nC,0,9\n' >aps.csv
+printf 'id,x,y\nA;5,-5\n' >bad.aps.csv
+awk 'BEGIN { for (t = 0; t < 15; t++)
+    printf "rss,%d,A,-55\nrss,%d,B,-58\nrss,%d,C,-59,0.25\nrss,%d,X,-40\n", t, t, t, t }' >rss.csv
+awk 'BEGIN { for (t = 0; t < 15; t++)
+    printf "range,%d,A,8.1\nrange,%d,B,9.5,0.5\nrange,%d,C,9.1\n", t, t, t }' >range.csv
+
+refuses 2 'insole replay: --particles 0: expected a whole number from 1 to 1000000' \
+    replay walk.csv --particles 0
+refuses 2 'insole replay: --particles 1e9: expected a whole number from 1 to 1000000' \
+    replay walk.csv --particles 1e9
+refuses 2 'insole replay: --particles 1000000000: expected a whole number from 1 to 1000000' \
+    replay walk.csv --particles 1000000000
+refuses 2 'insole replay: --seed red: expected a whole number' replay walk.csv --seed red
+refuses 2 'insole replay: --lag -1: expected a number from 0 to 60' replay walk.csv --lag -1
+refuses 2 'insole replay: --lag soon: expected a number from 0 to 60' replay walk.csv --lag soon
+refuses 2 'insole replay: --lag needs a building: --plan FILE, --aps FILE or both' \
+    replay walk.csv --lag 5
+refuses 2 'insole replay: --lag is for best and two-order, not for ins' \
+    replay walk.csv --plan plan.csv --method ins --lag 5
+refuses 2 'insole replay: --method wifi needs access points: --aps FILE' \
+    replay rss.csv --method wifi --plan plan.csv
+refuses 2 'insole replay: --smooth is for ins and pdr: method best with a building looks back by --lag SECONDS' \
+    replay walk.csv --plan plan.csv --smooth
+refuses 2 'insole replay: --use sound: expected rss, range or rss,range' \
+    replay walk.csv --use sound
+refuses 2 'insole replay: --out plan.csv would overwrite what is read' \
+    replay walk.csv --plan plan.csv --out plan.csv
+refuses 2 'insole replay: --events ./aps.csv would overwrite what is read' \
+    replay walk.csv --aps aps.csv --events ./aps.csv
+refuses 1 'absent.csv: cannot open: No such file or directory' replay walk.csv --aps absent.csv
+refuses 1 'absent.csv: cannot open: No such file or directory' replay walk.csv --plan absent.csv
+run replay walk.csv --aps bad.aps.csv
+status_is 1; empty out; has err 'bad.aps.csv:2: '
+run replay walk.csv --plan rss.csv
+status_is 1; empty out; has err 'rss.csv:1: '
+refuses 1 'walk.csv: no rss or range record in the session: expected rss,t,id,dbm' \
+    replay walk.csv --aps aps.csv --method wifi
+refuses 1 'rss.csv: no imu record in the session: expected imu,t,ax,ay,az,gx,gy,gz' \
+    replay rss.csv --aps aps.csv
+
+run replay walk.csv rss.csv
+status_is 0
+has err 'note: the log hears 4 access points: their places (--aps FILE) would hold the track'
+run replay walk.csv rss.csv --plan plan.csv --aps aps.csv --start 0,0,0.3 --out fused.csv \
+    --events fused.events.csv --plot fused.svg
+status_is 0; empty out
+has err '  building       plan.csv (4 walls), aps.csv (3 access points)'
+has err '  radio          15 scans, 0 ranges; worked in '
+has err '1 of 4 ids unknown'
+has err '  cloud          drawn 1 times'
+has err '  receiver       hears '
+has err '  states         align '
+[ "$(wc -l <fused.csv)" -eq 152 ] || fail 'not a row for every 0.1 s'
+for event in stance stride start scan resampling; do
+    has fused.events.csv "$event,"
+done
+run replay walk.csv rss.csv --plan plan.csv --aps aps.csv --start 0,0,0.3 --out again.csv --seed 1 \
+    --particles 500 --use rss,range
+cmp -s fused.csv again.csv || fail 'the defaults are not those of the help'
+run replay walk.csv rss.csv --plan plan.csv --aps aps.csv --start 0,0,0.3 --out again.csv --seed 2
+cmp -s fused.csv again.csv && fail 'another seed gives the same track'
+run replay walk.csv rss.csv --plan plan.csv --aps aps.csv --start 0,0,0.3 --use range --json
+status_is 0
+has out '"scans": 0,'
+run replay walk.csv rss.csv --plan plan.csv --aps aps.csv --start 0,0,0.3 --lag 3 --out late.csv
+status_is 0
+[ "$(wc -l <late.csv)" -eq 152 ] || fail 'not a row for every 0.1 s with a lag'
+run replay walk.csv --plan plan.csv --start 600,0,0.3
+status_is 0
+has err 'note: the start lies outside the plan, 580.0 m from the nearest wall: are both of the same map?'
+run replay walk.csv rss.csv --aps aps.csv --no-start
+status_is 0
+has err 'search '
+lacks err 'no start is known'
+run replay walk.csv --method two-order --start 0,0,0.3
+status_is 0
+has err '  building       nothing known (--plan, --aps)'
+run compare walk.csv rss.csv --methods ins,wifi,two-order,best --aps aps.csv --start 0,0 --lag 2
+status_is 0; empty err
+[ "$(wc -l <out)" -eq 5 ] || fail 'not a line per method'
+
+# Radio alone: a row for each scan; with an IMU, at the rate.
+run replay rss.csv --aps aps.csv --method wifi --out radio.csv
+status_is 0
+[ "$(wc -l <radio.csv)" -eq 16 ] || fail 'not a row for every scan'
+cat range.csv >input
+run replay - --aps aps.csv --method wifi --out radio.csv --use range
+status_is 0
+has err '  radio          0 scans, 45 ranges; worked in 15 times'
+[ "$(wc -l <radio.csv)" -eq 16 ] || fail 'not a row for every moment'
+: >input
+run replay walk.csv rss.csv --aps aps.csv --method wifi --out radio.csv --rate 5
+[ "$(wc -l <radio.csv)" -eq 77 ] || fail 'not a row for every 0.2 s'
+
+# A folder brings its building; what the command line tells counts more.
+mkdir -p house other
+cp walk.csv rss.csv plan.csv aps.csv house
+cp walk.csv plan.csv other
+run replay house --start 0,0,0.3 --out again.csv
+status_is 0
+cmp -s fused.csv again.csv || fail 'a folder gives another track than its files'
+has err '  building       plan.csv (4 walls), aps.csv (3 access points)'
+cp aps.csv two.csv
+run replay house --start 0,0,0.3 --aps two.csv
+has err '  building       plan.csv (4 walls), two.csv (3 access points)'
+refuses 2 'insole replay: both house/plan.csv and other/plan.csv are there: choose by --plan FILE' \
+    replay house other
+
 # ---- score ---------------------------------------------------------------------------------
 
 refuses 2 'insole score: expected two files, TRACK and TRUTH' score track.csv
@@ -276,7 +393,7 @@ has out '"align": "se2"'
 # ---- compare -------------------------------------------------------------------------------
 
 refuses 2 'insole compare: expected --methods A,B' compare walk.csv
-refuses 2 'insole: --method: foot_tracker.method: "gps" is not one of ins|pdr' \
+refuses 2 'insole: --method gps: expected ins, pdr, wifi, two-order or best' \
     compare walk.csv --methods ins,gps
 run compare walk.csv --methods ins,pdr --truth loop.csv --plot both.svg
 status_is 0; empty err

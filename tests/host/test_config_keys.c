@@ -22,7 +22,8 @@ START_TEST(the_table_is_complete_and_sane)
     for (size_t i = 0u; i < count; i++) {
         ck_assert_ptr_nonnull(strchr(keys[i].name, '.'));
         double value = config_value(&settings, &keys[i]);
-        ck_assert_msg(keys[i].low <= value && value <= keys[i].high, "%s", keys[i].name);
+        ck_assert_msg((double)(insole_real_t)keys[i].low <= value &&
+                          value <= (double)(insole_real_t)keys[i].high, "%s", keys[i].name);
         ck_assert(keys[i].text[0] != '\0');
         ck_assert_uint_lt(keys[i].offset, sizeof(settings_t));
         for (size_t k = 0u; k < i; k++) {
@@ -69,7 +70,7 @@ START_TEST(each_key_sets_its_own_member)
             continue;
         }
         double now = config_value(&settings, &keys[i]);
-        double target = now != keys[i].high ? keys[i].high : keys[i].low;
+        double target = now != (double)(insole_real_t)keys[i].high ? keys[i].high : keys[i].low;
         ck_assert_msg(config_set(&other, keys[i].name, number_short(value, target), &failure), "%s",
                       failure.text);
         int changed = 0;
@@ -81,6 +82,36 @@ START_TEST(each_key_sets_its_own_member)
         }
         ck_assert_int_eq(changed, 1);
     }
+}
+END_TEST
+
+/* Two particle filters have the same keys; each prints the defaults of its own. */
+START_TEST(the_settings_of_the_paper_are_apart)
+{
+    settings_init(&settings);
+    ck_assert(config_set(&settings, "two_order.sigma_length_m", "0.5", &failure));
+    ck_assert(settings.fusion.two_order.sigma_length_m == INSOLE_R(0.5));
+    ck_assert(settings.fusion.particles.sigma_length_m ==
+              insole_particle_filter_defaults.sigma_length_m);
+    FILE *file = tmpfile();
+    config_print_table(file);
+    const char *text = text_of(file);
+    ck_assert_ptr_nonnull(strstr(text, "\n| `particle_filter.walls` | crosses |"));
+    ck_assert_ptr_nonnull(strstr(text, "\n| `two_order.walls` | inside |"));
+}
+END_TEST
+
+static const char *const groups[] = {"foot_fusion.lag_s",  "particle_filter.turn_share",
+                                     "rss_field.spacing_m", "propagation.p0_dbm",
+                                     "rss_fix.sigma_db",    "range_fix.bias_m"};
+
+START_TEST(the_second_order_has_keys)
+{
+    settings_t before;
+    settings_init(&settings);
+    before = settings;
+    ck_assert_msg(config_set(&settings, groups[_i], "3", &failure), "%s", failure.text);
+    ck_assert_int_ne(memcmp(&settings, &before, sizeof settings), 0);
 }
 END_TEST
 
@@ -190,6 +221,8 @@ Suite *insole_suite(void)
     suite_add(suite, "table", the_table_is_complete_and_sane);
     suite_add(suite, "round trip", what_is_printed_is_read_back);
     suite_add(suite, "members", each_key_sets_its_own_member);
+    suite_add(suite, "paper", the_settings_of_the_paper_are_apart);
+    suite_add_loop(suite, "second order", the_second_order_has_keys, ROWS(groups));
     suite_add(suite, "set", values_are_set);
     suite_add_loop(suite, "refused", bad_settings_are_refused_and_change_nothing, ROWS(refused));
     suite_add(suite, "file", a_config_file_is_read);

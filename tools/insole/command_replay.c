@@ -212,9 +212,10 @@ static bool run(const arguments_t *arguments, failure_t *failure)
 static const option_t options[] = {
     {"method", "METHOD",
      "best: whatever is given is used as well as we know how (default);\n"
-     "two-order: the second stage of [TwoOrder] as printed; wifi: radio alone, no IMU\n"
-     "is needed; ins: inertial navigation with zero-velocity updates alone; pdr: strides\n"
-     "of modelled length in the inertial direction"},
+     "two-order: the second stage of [TwoOrder] as printed;\n"
+     "wifi: radio alone, which needs no IMU;\n"
+     "ins: inertial navigation with zero-velocity updates, nothing else;\n"
+     "pdr: strides of modelled length in the inertial direction"},
     REPLAY_OPTIONS,
     {"rate", "HZ", "rows of the track per second (default 10); 0: one per reading"},
     {"smooth", NULL, "ins, pdr: what comes after a moment counts for it too; rows come late"},

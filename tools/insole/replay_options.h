@@ -12,14 +12,15 @@
 /** Rows of an option_t list. */
 #define REPLAY_OPTIONS                                                                            \
     {"tracker", "foot", "which tracker; foot is the one there is (default)"},                     \
-    {"plan", "FILE", "floor plan: walls hold the track. A folder that is replayed brings its own\n"    \
-     "plan.csv, and its aps.csv"},                                                                \
-    {"aps", "FILE", "access points: signal strengths and ranges of the log hold the track"},      \
-    {"use", "rss,range", "which radio counts (default both)"},                                    \
-    {"seed", "N", "of the particles' random numbers (default 1); equal seeds give equal tracks"}, \
+    {"plan", "FILE", "floor plan: its walls hold the track; a folder that is replayed may bring\n"\
+     "its own plan.csv and aps.csv"},                                                             \
+    {"aps", "FILE", "access points: radio in the log holds the track"},                           \
+    {"use", "rss,range", "which radio counts: rss, range or both (default)"},                     \
+    {"seed", "N", "of the particles' random numbers (default 1); equal seeds give equal\n"        \
+     "tracks"},                                                                                   \
     {"particles", "N", "how many there are (default 500)"},                                       \
     {"lag", "SECONDS", "best, two-order: each position comes so late, smoothed by what came\n"    \
-     "after"},                                                                                    \
+     "after it"},                                                                                 \
     {"config", "FILE", "settings: lines `key = value` (`insole config` prints them all)"},        \
     {"set", "KEY=VALUE", "one setting; may be given often, and counts more than --config"},       \
     {"start", "X,Y[,HEADING]", "where the walk begins [m], and its direction over the first two\n"\
