@@ -198,17 +198,17 @@ class Track:
 
     def place(self, t):
         """Interpolated; None where the track has nothing to say."""
-        k = bisect.bisect_left(self.times, t)
-        if k == len(self.rows):
-            known = self.rows and t - self.times[-1] <= 0.5
-            return self.rows[-1][1:3] if known else None
-        b = self.rows[k]
-        a = self.rows[k - 1] if k > 0 else b
-        if t < a[0] or b[0] - a[0] > 2.0:
+        after = bisect.bisect_right(self.times, t)
+        if after in (0, len(self.rows)):
+            end = self.rows[after and after - 1]
+            return end[1:3] if abs(t - end[0]) <= 0.5 else None
+        a, b = self.rows[after - 1:after + 1]
+        if t == a[0]:
+            return a[1:3]
+        if b[0] - a[0] > 2.0:
             return None
-        share = (t - a[0]) / (b[0] - a[0]) if b[0] > a[0] else 1.0
-        if math.dist(a[1:3], b[1:3]) > 20.0 * (b[0] - a[0]):
-            share = 1.0
+        leaps = math.dist(a[1:3], b[1:3]) > 20.0 * (b[0] - a[0])
+        share = 1.0 if leaps else (t - a[0]) / (b[0] - a[0])
         return a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])
 
     def state(self, t):

@@ -78,7 +78,9 @@ static void find_place(const track_t *track, size_t after, pair_t *pair)
         return;
     }
     const track_row_t *a = &rows[after - 1u], *b = &rows[after];
-    if (seconds_between(a, b) <= SCORE_GAP_S) {
+    if (truth->t_us == a->t_us) {
+        take_place(pair, a, a, 0.0);
+    } else if (seconds_between(a, b) <= SCORE_GAP_S) {
         bool is_later = is_leap(a, b) && truth->t_us > a->t_us;
         take_place(pair, a, b, is_later ? 1.0 : seconds_between(a, truth) / seconds_between(a, b));
     }
