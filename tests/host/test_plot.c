@@ -39,7 +39,7 @@ static const char *draw(size_t tracks, const track_t *with_truth, const char *ti
     const char *path = scratch("plot.svg");
     both[0] = track;
     both[1] = other;
-    plot_t plot = {title, "a & b < c > d \"e\"", both, names, tracks, with_truth};
+    plot_t plot = {title, "a & b < c > d \"e\"", both, names, tracks, with_truth, NULL, NULL};
     ck_assert_msg(plot_write(&plot, path, &failure), "%s", failure.text);
     return content_of(path);
 }
@@ -168,7 +168,7 @@ END_TEST
 START_TEST(plots_that_cannot_be_written_are_told)
 {
     static const char *const name = "ins";
-    plot_t plot = {"a", "b", &track, &name, 1u, NULL};
+    plot_t plot = {"a", "b", &track, &name, 1u, NULL, NULL, NULL};
     ck_assert(!plot_write(&plot, SCRATCH "/no/such/plot.svg", &failure));
     ck_assert_int_eq(failure.exit_code, EXIT_BAD_INPUT);
 }

@@ -152,12 +152,14 @@ static bool draw(const contest_t *contest, failure_t *failure)
         drawn[i] = scoring_drawn(&trial->facts, &contest->tracks[i],
                                  trial->has_score ? &trial->score : NULL);
     }
-    plot_t plot = {platform_base_name(contest->arguments->operands[0]),
-                   has_truth ? score_alignment_text(contest->trials[0].score.alignment) : "",
-                   drawn,
-                   names,
-                   (size_t)contest->count,
-                   has_truth ? &contest->scoring.truth : NULL};
+    plot_t plot = {.title = platform_base_name(contest->arguments->operands[0]),
+                   .subtitle =
+                       has_truth ? score_alignment_text(contest->trials[0].score.alignment) : "",
+                   .tracks = drawn,
+                   .names = names,
+                   .track_count = (size_t)contest->count,
+                   .truth = has_truth ? &contest->scoring.truth : NULL,
+                   .site = contest->trials[0].facts.knows_place ? contest->request.site : NULL};
     bool is_good = plot_write(&plot, path, failure);
     for (int i = 0; i < contest->count; i++) {
         track_free(&drawn[i]);

@@ -167,8 +167,14 @@ static bool draw(const job_t *job, const summary_t *summary, failure_t *failure)
     }
     track_t rows = scoring_drawn(&job->facts, &job->rows, summary->score);
     describe(summary, subtitle, sizeof subtitle);
-    plot_t plot = {platform_base_name(job->arguments->operands[0]),    subtitle, &rows, &name, 1u,
-                   summary->score != NULL ? &job->scoring.truth : NULL};
+    plot_t plot = {.title = platform_base_name(job->arguments->operands[0]),
+                   .subtitle = subtitle,
+                   .tracks = &rows,
+                   .names = &name,
+                   .track_count = 1u,
+                   .truth = summary->score != NULL ? &job->scoring.truth : NULL,
+                   .site = job->facts.knows_place ? job->request.site : NULL,
+                   .cloud = &job->facts.fusion.cloud};
     bool is_good = plot_write(&plot, path, failure);
     track_free(&rows);
     return is_good;

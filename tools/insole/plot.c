@@ -7,6 +7,7 @@
 #include "number.h"
 #include "output.h"
 #include "plot_frame.h"
+#include "plot_plan.h"
 #include "svg.h"
 
 enum { TIME_SHADES = 32, ELLIPSES = 12, STYLE_ROOM = 160 };
@@ -171,6 +172,16 @@ static void draw_ellipses(const page_t *page)
     }
 }
 
+static void draw_cloud(const page_t *page)
+{
+    const track_t *cloud = page->plot->cloud;
+    for (size_t i = 0u; cloud != NULL && i < cloud->count; i++) {
+        svg_circle(page->file, plot_x(&page->frame, cloud->rows[i].x_m),
+                   plot_y(&page->frame, cloud->rows[i].y_m), 1.4,
+                   "fill=\"#e66101\" fill-opacity=\"0.45\"");
+    }
+}
+
 static void draw_start_mark(const page_t *page, double x, double y)
 {
     svg_circle(page->file, x, y, 6.0, "fill=\"#1b9e4b\" stroke=\"#ffffff\" stroke-width=\"1.5\"");
@@ -262,6 +273,28 @@ static void legend_states(page_t *page, const track_t *track)
     }
 }
 
+static bool has_plan(const plot_t *plot)
+{
+    return plot->site != NULL && plot->site->building.plan != NULL;
+}
+
+static bool has_aps(const plot_t *plot)
+{
+    return plot->site != NULL && plot->site->building.ap_count > 0u;
+}
+
+static void legend_building(page_t *page)
+{
+    if (has_aps(page->plot)) {
+        plot_plan_mark(page->file, legend_x(page) + 13.0, page->legend_y);
+        write_legend(page, "access point");
+    }
+    if (page->plot->cloud != NULL && page->plot->cloud->count > 0u) {
+        svg_circle(page->file, legend_x(page) + 13.0, page->legend_y, 2.5, "fill=\"#e66101\"");
+        write_legend(page, "particles at the end");
+    }
+}
+
 static void draw_legend(page_t *page)
 {
     const plot_t *plot = page->plot;
@@ -286,6 +319,7 @@ static void draw_legend(page_t *page)
                     "stroke-opacity=\"0.55\"");
         write_legend(page, "one sigma");
     }
+    legend_building(page);
 }
 
 /* ---- page ------------------------------------------------------------------------------- */
@@ -299,7 +333,21 @@ static plot_frame_t fit_frame(const plot_t *plot)
     if (plot->truth != NULL) {
         plot_area_add(&area, plot->truth);
     }
+    if (has_plan(plot)) {
+        plot_plan_area(&area, &plot->site->plan_file);
+    }
     return plot_frame(area);
+}
+
+static void draw_building(const page_t *page)
+{
+    const plot_t *plot = page->plot;
+    if (has_plan(plot)) {
+        plot_plan_draw(page->file, &page->frame, &plot->site->plan_file);
+    }
+    if (has_aps(plot)) {
+        plot_plan_draw_aps(page->file, &page->frame, &plot->site->plan_file, &plot->site->ap_file);
+    }
 }
 
 static void draw_page(FILE *file, const plot_t *plot)
@@ -307,6 +355,7 @@ static void draw_page(FILE *file, const plot_t *plot)
     page_t page = {file, plot, fit_frame(plot), 0.0};
     svg_begin(file, page.frame.width, page.frame.height);
     plot_frame_draw(file, &page.frame);
+    draw_building(&page);
     svg_text(file, page.frame.left, 32.0, "font-size=\"19\" font-weight=\"bold\" fill=\"#222\"",
              plot->title);
     svg_text(file, page.frame.left, 54.0, "font-size=\"12.5\" fill=\"#666\"", plot->subtitle);
@@ -315,6 +364,7 @@ static void draw_page(FILE *file, const plot_t *plot)
         draw_truth(&page);
     }
     draw_tracks(&page);
+    draw_cloud(&page);
     draw_marks(&page);
     draw_legend(&page);
     svg_end(file);

@@ -2,7 +2,8 @@
  *
  *  Equal scale on both axes, in metres; x to the right, y up. A single track is coloured by time,
  *  stretches that are not state track by their state; several have a colour each. Ellipses show one
- *  sigma, a circle the start, a square the end.
+ *  sigma, a circle the start, a square the end. A building lies under the tracks; the particles of
+ *  the end are dots.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -10,6 +11,7 @@
 #define INSOLE_HOST_PLOT_H
 
 #include "failure.h"
+#include "site.h"
 #include "track.h"
 
 /** More tracks than this have colours in common. */
@@ -21,6 +23,8 @@ typedef struct {
     const char *const *names; /**< of the tracks, for the legend */
     size_t track_count;
     const track_t *truth; /**< NULL: none */
+    const site_t *site;   /**< NULL: nothing is known of the building, or the track is not on it */
+    const track_t *cloud; /**< NULL: none; only places */
 } plot_t;
 
 /** @param path a file, or `-` for standard output */
