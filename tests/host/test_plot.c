@@ -165,6 +165,38 @@ START_TEST(both_axes_have_one_scale_and_all_is_inside)
 }
 END_TEST
 
+/* What is known of the building lies under the track, and all of it is on the page. */
+START_TEST(a_plot_shows_the_building)
+{
+    static site_t site;
+    static const char *const name = "best";
+    insole_propagation_config_t propagation = insole_propagation_defaults;
+    const char *plan = scratch_file("plan.csv", "outline,-40,-40,40,-40,40,40,-40,40\n");
+    const char *aps = scratch_file("aps.csv", "id,x,y\nnorth & south,3,4\nB,-5,6\n");
+    ck_assert_msg(site_open(&site, plan, aps, &propagation, &failure), "%s", failure.text);
+    make_spiral(&track, 100);
+    make_spiral(&other, 7);
+    plot_t plot = {"a", "b", &track, &name, 1u, NULL, &site, &other};
+    ck_assert(plot_write(&plot, scratch("building.svg"), &failure));
+    char with[TEXT_ROOM];
+    strcpy(with, content_of(scratch("building.svg")));
+    expect_well_formed(with);
+    ck_assert_ptr_nonnull(strstr(with, ">north &amp; south<"));
+    ck_assert_ptr_nonnull(strstr(with, ">access point<"));
+    ck_assert_ptr_nonnull(strstr(with, ">particles at the end<"));
+    ck_assert_int_eq(count_of(with, " r=\"1.40\""), 7);
+    plot.site = NULL;
+    plot.cloud = NULL;
+    ck_assert(plot_write(&plot, scratch("building.svg"), &failure));
+    const char *without = content_of(scratch("building.svg"));
+    ck_assert_ptr_null(strstr(without, ">access point<"));
+    ck_assert_ptr_null(strstr(without, ">particles at the end<"));
+    track_free(&track);
+    track_free(&other);
+    site_free(&site);
+}
+END_TEST
+
 START_TEST(plots_that_cannot_be_written_are_told)
 {
     static const char *const name = "ins";
@@ -219,6 +251,7 @@ Suite *insole_suite(void)
     suite_add(suite, "hardly anything", hardly_anything_can_be_drawn_too);
     suite_add(suite, "size", long_walks_do_not_make_large_files);
     suite_add(suite, "frame", both_axes_have_one_scale_and_all_is_inside);
+    suite_add(suite, "building", a_plot_shows_the_building);
     suite_add(suite, "unwritable", plots_that_cannot_be_written_are_told);
     suite_add(suite, "json", json_is_written);
     return suite;

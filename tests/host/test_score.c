@@ -100,13 +100,14 @@ START_TEST(points_without_a_place_count_thirty_metres)
     add(&truth, 0.4, 0.0, 0.0, 0.0); /* 0.6 s before the track */
     add(&truth, 0.5, 1.0, 0.0, 0.0);
     add(&truth, 2.0, 1.0, 0.0, 0.0);
+    add(&truth, 3.0, 1.0, 0.0, 0.0); /* the hole begins at once, but a row is there */
     add(&truth, 4.0, 1.0, 0.0, 0.0);
     add(&truth, 5.6, 1.0, 0.0, 0.0);
     add(&truth, 5.7, 1.0, 0.0, 0.0); /* 0.6 s after it */
     score_compute(&track, &truth, ALIGN_NONE, &score);
     ck_assert_uint_eq(score.missing, 3u);
     ASSERT_NEAR(score.max_m, 30.0, 0.0, "m");
-    ASSERT_NEAR(score.mean_m, (3.0 * 30.0 + 3.0) / 6.0, 1e-12, "m");
+    ASSERT_NEAR(score.mean_m, (3.0 * 30.0 + 4.0) / 7.0, 1e-12, "m");
     ASSERT_NEAR(score.end_2d_m, 30.0, 0.0, "m");
     ck_assert(isnan(score.end_3d_m));
     clear();

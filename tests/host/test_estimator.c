@@ -1,0 +1,520 @@
+/* SPDX-License-Identifier: MIT */
+#include "estimator.h"
+
+#include <stdlib.h>
+
+#include "files.h"
+#include "foot_walk.h"
+#include "near.h"
+#include "replay.h"
+#include "suite.h"
+
+/* 20 strides of 1.3 m in a circle of about 10 m about (0, 10). */
+static const foot_walk_t walk = {2.0, 1.3, 0.12, 200.0, 20, 0.0};
+
+/* Access points A..D about it, 2.5 m high. */
+enum { APS = 4, EVENTS = 2000 };
+static const double places_m[APS][2] = {{-14.0, -3.0}, {15.0, 2.0}, {3.0, 24.0}, {-9.0, 17.0}};
+
+typedef struct {
+    track_t rows;
+    unsigned long events[EVENT_KINDS];
+    replay_facts_t facts;
+    failure_t failure;
+} result_t;
+
+static result_t result;
+static site_t site;
+static const char *paths[2];
+
+static bool keep_row(void *context, const track_row_t *row, failure_t *failure)
+{
+    (void)failure;
+    track_add(&((result_t *)context)->rows, row);
+    return true;
+}
+
+static bool keep_event(void *context, const foot_event_t *event, failure_t *failure)
+{
+    result_t *to = context;
+    (void)failure;
+    ck_assert_int_le(event->begin_us, event->end_us);
+    ck_assert(event->kind == EVENT_STRIDE || event->length_m == 0.0);
+    to->events[event->kind]++;
+    return true;
+}
+
+static void clear(void)
+{
+    track_free(&result.rows);
+    replay_facts_free(&result.facts);
+    memset(&result, 0, sizeof result);
+}
+
+static track_t take_rows(void)
+{
+    track_t rows = result.rows;
+    memset(&result.rows, 0, sizeof result.rows);
+    clear();
+    return rows;
+}
+
+/* ---- the building ----------------------------------------------------------------------- */
+
+static double distance_m(int ap, double t_s)
+{
+    foot_pose_t pose = foot_walk_pose(&walk, t_s);
+    double flat_m = hypot(pose.x_m - places_m[ap][0], pose.y_m - places_m[ap][1]);
+    return hypot(flat_m, 2.5);
+}
+
+/* What is heard at a time, once a second or so; `age_s` is told. */
+static void write_radio(FILE *file, double t_s, double age_s)
+{
+    for (int i = 0; i < APS; i++) {
+        double d_m = distance_m(i, t_s - age_s);
+        fprintf(file, "rss,%.3f,%c,%.1f,%.2f\n", t_s, 'A' + i, -43.4 - 20.0 * log10(d_m), age_s);
+    }
+    fprintf(file, "rss,%.3f,stranger,-30\n", t_s);
+    for (int i = 0; i < APS; i++) {
+        fprintf(file, "range,%.3f,%c,%.2f\n", t_s, 'A' + i, distance_m(i, t_s) + 1.75);
+    }
+}
+
+/* Both logs up to a time; damage is the same for every cut. */
+static void write_logs(double until_s, const char *head)
+{
+    char line[256];
+    const char *whole = scratch("whole.csv");
+    FILE *file = fopen(whole, "wb");
+    foot_walk_write(&walk, file);
+    fclose(file);
+    paths[0] = scratch("imu.csv");
+    paths[1] = scratch("radio.csv");
+    FILE *in = fopen(whole, "rb"), *out = fopen(paths[0], "wb");
+    while (fgets(line, sizeof line, in) != NULL) {
+        double t_s = strtod(line + 4, NULL);
+        if (t_s <= until_s && !(t_s > 9.0 && t_s < 9.2)) {
+            fputs(line, out);
+        }
+    }
+    fclose(in);
+    fclose(out);
+    out = fopen(paths[1], "wb");
+    fputs(head, out);
+    for (int i = 0; 0.4 + 0.93 * i <= until_s && i < 28; i++) {
+        write_radio(out, 0.4 + 0.93 * i, 0.0);
+    }
+    fclose(out);
+}
+
+static replay_request_t request_of(method_t method)
+{
+    replay_request_t request;
+    memset(&request, 0, sizeof request);
+    request.logs = paths;
+    request.log_count = 2u;
+    request.rate_hz = 10.0;
+    request.method = method;
+    request.particles = 200u;
+    request.seed = 1u;
+    settings_init(&request.settings);
+    request.settings.fusion.foot.zupt_ekf.roll_height_m = INSOLE_R(0.0);
+    return request;
+}
+
+static void open_site(replay_request_t *request, bool has_plan, bool has_aps)
+{
+    const char *plan = scratch_file("plan.csv", "loss,4\noutline,-15,-5,16,-5,16,25,-15,25\n"
+                                                "hole,-3,7,3,7,3,13,-3,13\n");
+    char text[256];
+    int length = snprintf(text, sizeof text, "id,x,y,z\n");
+    for (int i = 0; i < APS; i++) {
+        length += snprintf(text + length, sizeof text - (size_t)length, "%c,%g,%g,2.5\n", 'A' + i,
+                           places_m[i][0], places_m[i][1]);
+    }
+    const char *aps = scratch_file("aps.csv", text);
+    ck_assert_msg(site_open(&site, has_plan ? plan : NULL, has_aps ? aps : NULL,
+                            &request->settings.propagation, &result.failure),
+                  "%s", result.failure.text);
+    request->site = &site;
+}
+
+static void run(const replay_request_t *request)
+{
+    const replay_sink_t sink = {&result, NULL, keep_row, keep_event};
+    ck_assert_msg(replay_run(request, &sink, &result.facts, &result.failure), "%s",
+                  result.failure.text);
+}
+
+static double mean_error_m(const track_t *rows, double from_s)
+{
+    double sum = 0.0;
+    int count = 0;
+    for (size_t i = 0u; i < rows->count; i++) {
+        double t_s = 1e-6 * (double)rows->rows[i].t_us;
+        foot_pose_t pose = foot_walk_pose(&walk, t_s);
+        if (t_s >= from_s) {
+            sum += hypot(rows->rows[i].x_m - pose.x_m, rows->rows[i].y_m - pose.y_m);
+            count++;
+        }
+    }
+    ck_assert_int_gt(count, 0);
+    return sum / count;
+}
+
+static void expect_same_rows(const track_t *a, const track_t *b, size_t n)
+{
+    ck_assert_uint_le(n, a->count);
+    ck_assert_uint_le(n, b->count);
+    for (size_t i = 0u; i < n; i++) {
+        const track_row_t *p = &a->rows[i], *q = &b->rows[i];
+        ck_assert_msg(memcmp(p, q, offsetof(track_row_t, state)) == 0 && p->state == q->state,
+                      "row %lu at %.6f s: x %.17g and %.17g m, state %d and %d", (unsigned long)i,
+                      1e-6 * (double)p->t_us, p->x_m, q->x_m, (int)p->state, (int)q->state);
+    }
+}
+
+/* ---- second order ----------------------------------------------------------------------- */
+
+static const char start_line[] = "start,0,0,0,0.06,0.2,0.05\n";
+
+START_TEST(nothing_known_of_a_building_is_the_first_order)
+{
+    write_logs(1e9, start_line);
+    replay_request_t request = request_of(METHOD_INS);
+    run(&request);
+    track_t ins = take_rows();
+    request = request_of(METHOD_BEST);
+    run(&request);
+    ck_assert(!result.facts.fusion.is_fused);
+    ck_assert_uint_eq(result.facts.fusion.ids, APS + 1u);
+    ck_assert_uint_eq(result.rows.count, ins.count);
+    expect_same_rows(&ins, &result.rows, ins.count);
+    track_free(&ins);
+    clear();
+}
+END_TEST
+
+START_TEST(building_and_radio_are_used)
+{
+    write_logs(1e9, start_line);
+    replay_request_t request = request_of(METHOD_BEST);
+    open_site(&request, true, true);
+    run(&request);
+    const replay_fusion_t *fusion = &result.facts.fusion;
+    ck_assert(fusion->is_fused && fusion->walls == 8u && fusion->aps == APS);
+    ck_assert_uint_eq(fusion->unknown_ids, 1u);
+    ck_assert_uint_eq(fusion->radio.scans, 28u);
+    ck_assert_uint_eq(fusion->radio.ranges, 28u * APS);
+    ck_assert_uint_eq(fusion->counts.scans, 28u);
+    ck_assert_uint_gt(fusion->radio.worked_in, 10u);
+    ck_assert_uint_gt(fusion->cloud.count, 0u);
+    ck_assert(fusion->has_offset && fabs(fusion->offset_db) < 5.0);
+    ck_assert(result.facts.knows_place && !fusion->starts_outside);
+    ck_assert_uint_eq(result.events[EVENT_STRIDE], 20u);
+    ck_assert_uint_eq(result.events[EVENT_START], 1u);
+    ck_assert_uint_gt(result.events[EVENT_SCAN], 10u);
+    ck_assert_uint_gt(result.events[EVENT_RANGES], 10u);
+    ck_assert_uint_eq(result.events[EVENT_RESAMPLING], fusion->particles.resampled);
+    ck_assert_uint_eq(result.events[EVENT_REDRAW], fusion->particles.redrawn);
+    ck_assert_uint_eq(result.events[EVENT_RECOVERY], fusion->particles.recovered);
+    ASSERT_AT_MOST(mean_error_m(&result.rows, 0.0), 0.5, "m");
+    clear();
+    site_free(&site);
+}
+END_TEST
+
+START_TEST(radio_that_is_not_wanted_is_not_used)
+{
+    write_logs(1e9, start_line);
+    replay_request_t request = request_of(METHOD_BEST);
+    open_site(&request, false, true);
+    request.no_rss = true;
+    run(&request);
+    ck_assert_uint_eq(result.facts.fusion.counts.scans, 0u);
+    ck_assert_uint_gt(result.facts.fusion.counts.ranges, 0u);
+    ck_assert_uint_eq(result.events[EVENT_SCAN], 0u);
+    clear();
+    request.no_rss = false;
+    request.no_range = true;
+    run(&request);
+    ck_assert_uint_gt(result.facts.fusion.counts.scans, 0u);
+    ck_assert_uint_eq(result.facts.fusion.counts.ranges, 0u);
+    ck_assert_uint_eq(result.events[EVENT_RANGES], 0u);
+    clear();
+    site_free(&site);
+}
+END_TEST
+
+START_TEST(radio_finds_a_start_that_nobody_tells)
+{
+    write_logs(1e9, "");
+    replay_request_t request = request_of(METHOD_BEST);
+    open_site(&request, true, true);
+    request.no_range = true; /* signal strengths take longer */
+    run(&request);
+    ck_assert(result.facts.knows_place);
+    ck_assert_int_gt(result.facts.start_us, 0);
+    ck_assert_uint_gt(result.facts.states[INSOLE_FIX_SEARCH], 0u);
+    ck_assert_uint_gt(result.facts.states[INSOLE_FIX_TRACK], 0u);
+    clear();
+    request.no_range = false;
+    run(&request);
+    ASSERT_AT_MOST(mean_error_m(&result.rows, 15.0), 1.0, "m");
+    clear();
+    site_free(&site);
+}
+END_TEST
+
+START_TEST(equal_seeds_give_equal_bits)
+{
+    write_logs(1e9, start_line);
+    replay_request_t request = request_of(_i == 0 ? METHOD_BEST : METHOD_TWO_ORDER);
+    open_site(&request, true, true);
+    run(&request);
+    track_t first = take_rows();
+    run(&request);
+    ck_assert_uint_eq(result.rows.count, first.count);
+    expect_same_rows(&result.rows, &first, first.count);
+    clear();
+    request.seed = 2u;
+    run(&request);
+    const track_row_t *a = &first.rows[first.count - 1u];
+    const track_row_t *b = &result.rows.rows[result.rows.count - 1u];
+    ck_assert(a->x_m != b->x_m && a->y_m != b->y_m);
+    track_free(&first);
+    clear();
+    site_free(&site);
+}
+END_TEST
+
+START_TEST(a_lag_gives_the_same_rows_later)
+{
+    write_logs(1e9, start_line);
+    replay_request_t request = request_of(METHOD_BEST);
+    open_site(&request, true, true);
+    run(&request);
+    size_t count = result.rows.count;
+    unsigned long strides = result.events[EVENT_STRIDE];
+    clear();
+    request.settings.fusion.lag_s = INSOLE_R(3.0);
+    run(&request);
+    ck_assert_uint_eq(result.rows.count, count);
+    ck_assert_uint_eq(result.events[EVENT_STRIDE], strides);
+    ASSERT_AT_MOST(mean_error_m(&result.rows, 0.0), 0.5, "m");
+    clear();
+    site_free(&site);
+}
+END_TEST
+
+/* ---- radio alone ------------------------------------------------------------------------ */
+
+/* Signal strengths alone are as good as the library's solution. */
+static void expect_fix_of_library(const replay_request_t *request, const track_row_t *row,
+                                  double t_s)
+{
+    insole_rss_t readings[APS];
+    insole_anchor_fix_t fix;
+    for (uint32_t i = 0u; i < APS; i++) {
+        double rss_dbm = 0.1 * round(10.0 * (-43.4 - 20.0 * log10(distance_m((int)i, t_s))));
+        insole_rss_t reading = {i, (insole_real_t)rss_dbm, 0u};
+        readings[i] = reading;
+    }
+    ck_assert_int_eq(insole_rss_fix_solve(&request->settings.fusion.rss_fix,
+                                          &request->settings.propagation, site.building.aps, APS,
+                                          readings, APS, &fix),
+                     INSOLE_OK);
+    ASSERT_NEAR(row->x_m, (double)fix.x_m, 1e-3, "m");
+    ASSERT_NEAR(row->y_m, (double)fix.y_m, 1e-3, "m");
+}
+
+START_TEST(radio_alone_gives_a_row_for_each_scan)
+{
+    write_logs(1e9, "");
+    replay_request_t request = request_of(METHOD_WIFI);
+    open_site(&request, false, true);
+    request.logs = &paths[1];
+    request.log_count = 1u;
+    request.no_rss = _i == 0;
+    request.no_range = _i == 1;
+    run(&request);
+    ck_assert_uint_eq(result.rows.count, 28u);
+    for (size_t i = 0u; i < result.rows.count; i++) {
+        ck_assert_int_eq(result.rows.rows[i].t_us, 400000 + 930000 * (int64_t)i);
+        ck_assert_int_eq(result.rows.rows[i].state, INSOLE_FIX_TRACK);
+    }
+    if (_i == 1) {
+        expect_fix_of_library(&request, &result.rows.rows[20], 0.4 + 0.93 * 20);
+    } else {
+        ASSERT_AT_MOST(mean_error_m(&result.rows, 0.0), 1.0, "m");
+    }
+    ck_assert(result.facts.knows_place);
+    clear();
+    site_free(&site);
+}
+END_TEST
+
+START_TEST(with_an_imu_rows_of_radio_are_due_as_ever)
+{
+    write_logs(1e9, start_line);
+    replay_request_t request = request_of(METHOD_WIFI);
+    open_site(&request, false, true);
+    run(&request);
+    ck_assert_uint_eq(result.rows.count, 261u);
+    for (size_t i = 0u; i < result.rows.count; i++) {
+        const track_row_t *row = &result.rows.rows[i];
+        ck_assert_int_eq(row->t_us, 100000 * (int64_t)i);
+        ck_assert_int_eq(row->state == INSOLE_FIX_SEARCH, row->t_us <= 400000);
+    }
+    clear();
+    site_free(&site);
+}
+END_TEST
+
+/* A fix grows old. */
+START_TEST(radio_that_falls_silent_is_told)
+{
+    write_logs(1e9, "");
+    paths[1] = scratch_file("short.csv", "rss,0.998,A,-50\nrss,0.998,B,-60\n");
+    replay_request_t request = request_of(METHOD_WIFI);
+    open_site(&request, false, true);
+    run(&request);
+    for (size_t i = 0u; i < result.rows.count; i++) {
+        const track_row_t *row = &result.rows.rows[i];
+        insole_fix_state_t expected = row->t_us < 1000000                    ? INSOLE_FIX_SEARCH
+                                      : row->t_us <= 998000 + RADIO_FRESH_US ? INSOLE_FIX_TRACK
+                                                                             : INSOLE_FIX_COAST;
+        ck_assert_int_eq(row->state, expected);
+    }
+    clear();
+    site_free(&site);
+}
+END_TEST
+
+/* ---- prefix law ------------------------------------------------------------------------- */
+
+static const struct {
+    method_t method;
+    const char *head;
+    bool has_plan, has_aps;
+    double rate_hz;
+} laws[] = {
+    {METHOD_BEST, start_line, true, true, 10.0}, {METHOD_BEST, "", true, true, 0.0},
+    {METHOD_BEST, start_line, true, false, 0.0}, {METHOD_TWO_ORDER, start_line, true, true, 10.0},
+    {METHOD_WIFI, "", false, true, 10.0},        {METHOD_WIFI, "", false, true, 0.0}};
+
+START_TEST(rows_of_a_cut_session_are_those_of_the_whole)
+{
+    static const double cuts_s[] = {0.7, 2.9, 5.05, 9.1, 13.0, 17.14, 22.3};
+    replay_request_t request = request_of(laws[_i].method);
+    open_site(&request, laws[_i].has_plan, laws[_i].has_aps);
+    request.rate_hz = laws[_i].rate_hz;
+    write_logs(1e9, laws[_i].head);
+    run(&request);
+    track_t rows = take_rows();
+    for (size_t i = 0u; i < sizeof cuts_s / sizeof cuts_s[0]; i++) {
+        write_logs(cuts_s[i], laws[_i].head);
+        run(&request);
+        size_t n = 0u;
+        while (n < rows.count && 1e-6 * (double)rows.rows[n].t_us <= cuts_s[i] - 0.5) {
+            n++;
+        }
+        expect_same_rows(&rows, &result.rows, n);
+        clear();
+    }
+    track_free(&rows);
+    site_free(&site);
+}
+END_TEST
+
+/* ---- trouble ---------------------------------------------------------------------------- */
+
+static const char *const troubles[] = {"rss,5,A,nan\nrss,5,B,\nrange,5,A,nan\nrange,5,B,\n",
+                                       "rss,999999,A,-50\n",
+                                       "rss,1000000,A,-50\nrange,1000000,A,5\n",
+                                       "rss,-1000000,A,-50\nrange,-1000000,A,5\n",
+                                       "rss,3,A,1e300,1e9\nrange,3,A,-5,1e30\nrange,3,B,1e30\n",
+                                       "rss,0.4,A,-50\nrss,0.39,A,-50\nrss,0.4,B,-50\n"};
+
+/* Whatever radio says, the track of the foot goes on. */
+START_TEST(radio_trouble_does_not_stop_the_track)
+{
+    static const method_t methods[] = {METHOD_BEST, METHOD_TWO_ORDER, METHOD_WIFI};
+    const char *trouble = troubles[_i];
+    for (size_t k = 0u; k < 3u; k++) {
+        write_logs(1e9, start_line);
+        const char *all[3] = {paths[0], paths[1], scratch_file("trouble.csv", trouble)};
+        replay_request_t request = request_of(methods[k]);
+        open_site(&request, true, true);
+        request.logs = all;
+        request.log_count = 3u;
+        run(&request);
+        ck_assert_uint_gt(result.rows.count, 200u);
+        ck_assert_uint_gt(result.facts.fusion.radio.worked_in, 2u);
+        for (size_t i = 0u; i < result.rows.count; i++) {
+            const track_row_t *row = &result.rows.rows[i];
+            ck_assert(isfinite(row->x_m) && isfinite(row->y_m) && isfinite(row->var_x_m2));
+            ck_assert_msg(hypot(row->x_m, row->y_m) < 100.0, "(%g, %g) m", row->x_m, row->y_m);
+        }
+        clear();
+        site_free(&site);
+    }
+}
+END_TEST
+
+START_TEST(a_start_outside_the_plan_is_noticed)
+{
+    write_logs(1e9, "start,0,66,0,0.06\n");
+    replay_request_t request = request_of(METHOD_BEST);
+    open_site(&request, true, true);
+    run(&request);
+    ck_assert(result.facts.fusion.starts_outside);
+    ASSERT_NEAR(result.facts.fusion.start_distance_m, 50.0, 0.01, "m");
+    clear();
+    write_logs(1e9, "start,0,66000,0,0.06\n");
+    run(&request);
+    ASSERT_NEAR(result.facts.fusion.start_distance_m, REPLAY_FAR_M, 0.0, "m");
+    clear();
+    site_free(&site);
+}
+END_TEST
+
+START_TEST(settings_the_library_does_not_take_are_told)
+{
+    write_logs(1e9, "");
+    replay_request_t request = request_of(METHOD_TWO_ORDER);
+    replay_sink_t sink = {NULL, NULL, NULL, NULL};
+    if (_i == 0) {
+        request.settings.propagation.exponent = INSOLE_R(-1.0);
+    } else if (_i == 1) {
+        request.settings.fusion.two_order.walls = 9;
+    } else {
+        request.particles = 0u;
+    }
+    ck_assert(!replay_run(&request, &sink, &result.facts, &result.failure));
+    ck_assert_str_eq(result.failure.text, "insole: the tracker does not take these settings");
+    clear();
+}
+END_TEST
+
+#define ROWS(table) ((int)(sizeof table / sizeof table[0]))
+
+Suite *insole_suite(void)
+{
+    Suite *suite = suite_create("estimator");
+    suite_add(suite, "no building", nothing_known_of_a_building_is_the_first_order);
+    suite_add(suite, "building", building_and_radio_are_used);
+    suite_add(suite, "use", radio_that_is_not_wanted_is_not_used);
+    suite_add(suite, "no start", radio_finds_a_start_that_nobody_tells);
+    suite_add_loop(suite, "same bits", equal_seeds_give_equal_bits, 2);
+    suite_add(suite, "lag", a_lag_gives_the_same_rows_later);
+    suite_add_loop(suite, "wifi", radio_alone_gives_a_row_for_each_scan, 3);
+    suite_add(suite, "wifi with IMU", with_an_imu_rows_of_radio_are_due_as_ever);
+    suite_add(suite, "silence", radio_that_falls_silent_is_told);
+    suite_add_loop(suite, "prefix law", rows_of_a_cut_session_are_those_of_the_whole, ROWS(laws));
+    suite_add_loop(suite, "trouble", radio_trouble_does_not_stop_the_track, ROWS(troubles));
+    suite_add(suite, "start outside", a_start_outside_the_plan_is_noticed);
+    suite_add_loop(suite, "settings", settings_the_library_does_not_take_are_told, 3);
+    return suite;
+}
