@@ -163,33 +163,46 @@ bool replay_options_parse(const arguments_t *arguments, replay_request_t *reques
            open_site(arguments, request, failure);
 }
 
+/* Does the method leave the building aside, or has it none? */
+static bool is_first_order(const replay_request_t *request)
+{
+    return method_is_first_order(request->method) ||
+           (request->method == METHOD_BEST && request->site == NULL);
+}
+
+/* When methods are compared those that cannot wait do not. */
+static bool check_lag(const arguments_t *arguments, const replay_request_t *request,
+                      failure_t *failure)
+{
+    if (!options_has(arguments, "lag") || request->method == METHOD_TWO_ORDER) {
+        return true;
+    }
+    if (request->method == METHOD_BEST) {
+        return request->site != NULL ||
+               failure_usage(failure,
+                             "insole %s: --lag needs a building: --plan FILE, --aps FILE or both",
+                             arguments->command);
+    }
+    return !options_has(arguments, "method") ||
+           failure_usage(failure, "insole %s: --lag is for best and two-order, not for %s",
+                         arguments->command, method_name(request->method));
+}
+
 bool replay_options_check(const arguments_t *arguments, const replay_request_t *request,
                           failure_t *failure)
 {
-    const char *name = method_name(request->method);
     bool has_aps = request->site != NULL && request->site->building.ap_count > 0u;
     if (request->method == METHOD_WIFI && !has_aps) {
         return failure_usage(failure, "insole %s: --method wifi needs access points: --aps FILE",
                              arguments->command);
     }
-    if (options_has(arguments, "lag") && request->method == METHOD_BEST && request->site == NULL) {
-        return failure_usage(failure,
-                             "insole %s: --lag needs a building: --plan FILE, --aps FILE or both",
-                             arguments->command);
-    }
-    if (options_has(arguments, "lag") && options_has(arguments, "method") &&
-        (method_is_first_order(request->method) || request->method == METHOD_WIFI)) {
-        return failure_usage(failure, "insole %s: --lag is for best and two-order, not for %s",
-                             arguments->command, name);
-    }
-    if (request->is_smooth && !method_is_first_order(request->method) &&
-        !(request->method == METHOD_BEST && request->site == NULL)) {
+    if (request->is_smooth && !is_first_order(request)) {
         return failure_usage(failure,
                              "insole %s: --smooth is for ins and pdr: method %s with a building "
                              "looks back by --lag SECONDS",
-                             arguments->command, name);
+                             arguments->command, method_name(request->method));
     }
-    return true;
+    return check_lag(arguments, request, failure);
 }
 
 void replay_options_free(replay_request_t *request)
