@@ -16,7 +16,8 @@
     ROW(still_bias, fusion.foot.still_bias, kind, name, __VA_ARGS__)
 #define ZERO_VELOCITY_ROW(kind, name, ...)                                                         \
     ROW(zero_velocity, fusion.foot.zero_velocity, kind, name, __VA_ARGS__)
-#define ZUPT_EKF_ROW(kind, name, ...)    ROW(zupt_ekf, fusion.foot.zupt_ekf, kind, name, __VA_ARGS__)
+#define ZUPT_EKF_ROW(kind, name, ...) ROW(zupt_ekf, fusion.foot.zupt_ekf, kind, name, __VA_ARGS__)
+
 #define STRIDE_ROW(kind, name, ...)      ROW(stride, fusion.foot.stride, kind, name, __VA_ARGS__)
 #define FOOT_FUSION_ROW(kind, name, ...) ROW(foot_fusion, fusion, kind, name, __VA_ARGS__)
 #define PARTICLE_FILTER_ROW(kind, name, ...)                                                       \
