@@ -207,7 +207,7 @@ START_TEST(building_and_radio_are_used)
     ck_assert_uint_eq(fusion->unknown_ids, 1u);
     ck_assert_uint_eq(fusion->radio.scans, 28u);
     ck_assert_uint_eq(fusion->radio.ranges, 28u * APS);
-    ck_assert_uint_eq(fusion->counts.scans, 28u);
+    ck_assert_uint_eq(fusion->waits.scans, 28u);
     ck_assert_uint_gt(fusion->radio.worked_in, 10u);
     ck_assert_uint_gt(fusion->cloud.count, 0u);
     ck_assert(fusion->has_offset && fabs(fusion->offset_db) < 5.0);
@@ -232,15 +232,15 @@ START_TEST(radio_that_is_not_wanted_is_not_used)
     open_site(&request, false, true);
     request.no_rss = true;
     run(&request);
-    ck_assert_uint_eq(result.facts.fusion.counts.scans, 0u);
-    ck_assert_uint_gt(result.facts.fusion.counts.ranges, 0u);
+    ck_assert_uint_eq(result.facts.fusion.waits.scans, 0u);
+    ck_assert_uint_gt(result.facts.fusion.waits.ranges, 0u);
     ck_assert_uint_eq(result.events[EVENT_SCAN], 0u);
     clear();
     request.no_rss = false;
     request.no_range = true;
     run(&request);
-    ck_assert_uint_gt(result.facts.fusion.counts.scans, 0u);
-    ck_assert_uint_eq(result.facts.fusion.counts.ranges, 0u);
+    ck_assert_uint_gt(result.facts.fusion.waits.scans, 0u);
+    ck_assert_uint_eq(result.facts.fusion.waits.ranges, 0u);
     ck_assert_uint_eq(result.events[EVENT_RANGES], 0u);
     clear();
     site_free(&site);

@@ -187,9 +187,9 @@ static void make_good_fusion(void)
     facts.fusion.radio.scans = 30u;
     facts.fusion.radio.ranges = 4u;
     facts.fusion.radio.worked_in = 28u;
-    facts.fusion.counts.unused = 3u;
-    facts.fusion.counts.unknown = 1u;
-    facts.fusion.counts.starts = 1u;
+    facts.fusion.waits.unused = 3u;
+    facts.fusion.waits.unknown = 1u;
+    facts.fusion.starts = 1u;
     facts.fusion.particles.strides = 100u;
     facts.fusion.particles.resampled = 5u;
     facts.fusion.particles.redrawn = 6u;

@@ -165,7 +165,8 @@ static void hand_on_radio(estimator_t *estimator)
     if (!is_wild && radio->range_count > 0u) {
         push_ranges(estimator, radio);
     }
-    if (!is_wild && radio->rss_count > 0u && !estimator->fusion.tells_radio) {
+    if (!is_wild && radio->rss_count > 0u &&
+        !(is_wifi(estimator) && estimator->fusion.radio.is_new)) {
         push_scan(estimator, radio);
     }
     radio_group_clear(&estimator->radio);
@@ -347,6 +348,6 @@ bool estimator_event(estimator_t *estimator, foot_event_t *event)
 
 bool estimator_is_placed(const estimator_t *estimator)
 {
-    return is_wifi(estimator) ? estimator->fusion.has_radio
+    return is_wifi(estimator) ? estimator->fusion.radio.has_fix
                               : estimator->is_fused && estimator->fusion.particles.has_fix;
 }

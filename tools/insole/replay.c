@@ -226,7 +226,8 @@ static void gather_fusion(const run_t *run, replay_fusion_t *facts)
     facts->walls = building->plan != NULL ? building->plan->wall_count : 0u;
     facts->aps = building->ap_count;
     facts->radio = estimator->counts;
-    facts->counts = estimator->fusion.counts;
+    facts->waits = estimator->fusion.radio.counts;
+    facts->starts = estimator->fusion.counts.starts;
     facts->particles = particles->counts;
     facts->has_offset = particles->field.learned > 0u;
     facts->offset_db = (double)particles->field.offset_db;

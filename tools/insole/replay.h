@@ -45,7 +45,8 @@ typedef struct {
     unsigned long walls, aps;
     unsigned long ids, unknown_ids; /**< of access points in the logs */
     radio_counts_t radio;
-    insole_fusion_counts_t counts;
+    insole_fusion_counts_t waits; /**< of what radio told */
+    uint32_t starts;              /**< times the particles were drawn */
     insole_particle_counts_t particles;
     bool has_offset;
     double offset_db; /**< the receiver hears so much stronger than expected */

@@ -34,11 +34,11 @@ static void print_radio(FILE *file, const replay_fusion_t *facts)
 {
     fprintf(file, "  radio          %lu scans, %lu ranges; worked in %lu times", facts->radio.scans,
             facts->radio.ranges, facts->radio.worked_in);
-    if (facts->counts.unused > 0u) {
-        fprintf(file, "; %lu came too soon after another", (unsigned long)facts->counts.unused);
+    if (facts->waits.unused > 0u) {
+        fprintf(file, "; %lu came too soon after another", (unsigned long)facts->waits.unused);
     }
-    if (facts->counts.unknown > 0u) {
-        fprintf(file, "; %lu of no use", (unsigned long)facts->counts.unknown);
+    if (facts->waits.unknown > 0u) {
+        fprintf(file, "; %lu of no use", (unsigned long)facts->waits.unknown);
     }
     if (facts->unknown_ids > 0u) {
         fprintf(file, "; %lu of %lu ids unknown", facts->unknown_ids, facts->ids);
@@ -53,7 +53,7 @@ static void print_cloud(FILE *file, const replay_fusion_t *facts)
     fprintf(file,
             "  cloud          drawn %lu times, resampled %lu, moved in part to where scans "
             "point %lu, lost and found %lu\n",
-            (unsigned long)facts->counts.starts, (unsigned long)counts->resampled,
+            (unsigned long)facts->starts, (unsigned long)counts->resampled,
             (unsigned long)counts->redrawn, (unsigned long)counts->recovered);
     if (facts->has_offset) {
         fprintf(file, "  receiver       hears %s dB %s than expected\n",
@@ -120,8 +120,8 @@ static void json_radio(json_t *json, const replay_fusion_t *facts)
     json_whole(json, "scans", (long long)facts->radio.scans);
     json_whole(json, "ranges", (long long)facts->radio.ranges);
     json_whole(json, "worked_in", (long long)facts->radio.worked_in);
-    json_whole(json, "too_soon", (long long)facts->counts.unused);
-    json_whole(json, "of_no_use", (long long)facts->counts.unknown);
+    json_whole(json, "too_soon", (long long)facts->waits.unused);
+    json_whole(json, "of_no_use", (long long)facts->waits.unknown);
     json_whole(json, "wild", (long long)facts->radio.wild);
     json_whole(json, "ids", (long long)facts->ids);
     json_whole(json, "unknown_ids", (long long)facts->unknown_ids);
@@ -131,7 +131,7 @@ static void json_radio(json_t *json, const replay_fusion_t *facts)
 static void json_cloud(json_t *json, const replay_fusion_t *facts)
 {
     json_object(json, "cloud");
-    json_whole(json, "drawn", (long long)facts->counts.starts);
+    json_whole(json, "drawn", (long long)facts->starts);
     json_whole(json, "resampled", (long long)facts->particles.resampled);
     json_whole(json, "redrawn", (long long)facts->particles.redrawn);
     json_whole(json, "recovered", (long long)facts->particles.recovered);
