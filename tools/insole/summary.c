@@ -61,9 +61,12 @@ static double duration_s(const replay_facts_t *facts)
 static void print_walk(FILE *file, const replay_facts_t *facts)
 {
     char a[NUMBER_ROOM], b[NUMBER_ROOM];
-    fprintf(file, "  duration       %s s, %lu readings at %s Hz\n",
-            number_fixed(a, duration_s(facts), 1), facts->readings,
-            number_fixed(b, notes_rate_hz(facts), 1));
+    fprintf(file, "  duration       %s s", number_fixed(a, duration_s(facts), 1));
+    if (facts->readings > 1u) {
+        fprintf(file, ", %lu readings at %s Hz", facts->readings,
+                number_fixed(b, notes_rate_hz(facts), 1));
+    }
+    fputc('\n', file);
     if (facts->method == METHOD_WIFI) {
         return; /* nobody looked at the foot */
     }
