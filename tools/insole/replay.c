@@ -46,8 +46,8 @@ static bool give_rows(run_t *run, failure_t *failure)
 /* Radio has put a track on the map that no start did. */
 static void note_place(run_t *run, const track_row_t *fix)
 {
-    if (!run->facts->knows_place && fix->state == INSOLE_FIX_TRACK &&
-        estimator_is_placed(&run->estimator)) {
+    bool is_somewhere = fix->state == INSOLE_FIX_TRACK || fix->state == INSOLE_FIX_SEARCH;
+    if (!run->facts->knows_place && is_somewhere && estimator_is_placed(&run->estimator)) {
         run->facts->knows_place = run->facts->knows_heading = true;
         run->facts->start_us = fix->t_us;
     }
