@@ -222,14 +222,6 @@ static insole_real_t wall_loss_db(insole_rss_field_t *field, const insole_floor_
                : insole_wall_losses_between(plan, spot_of_node(field, node), ap);
 }
 
-/* How much of the body stands in the way: none of it for what lies ahead, all of it for what lies
- * behind, and what lies to the side sees it come in. */
-static insole_real_t body_share(insole_real_t cos_bearing)
-{
-    insole_real_t share = HALF - INSOLE_R(1.5) * cos_bearing;
-    return insole_max(ZERO, insole_min(share, ONE));
-}
-
 /* Cosines of the access point's bearing as seen by each view: ahead, left, behind, right. */
 static void bearings(const insole_rss_field_t *field, insole_spot_t spot, const insole_ap_t *ap,
                      insole_real_t *cos_bearing)
@@ -254,7 +246,8 @@ static void add_pair(insole_rss_field_t *field, const insole_building_t *buildin
     for (uint32_t view = 0; view < field->views; view++) {
         insole_expected_rss_t expected;
         if (insole_propagation_expect(building->propagation, ap, spot.x_m, spot.y_m, loss_db,
-                                      body_share(cos_bearing[view]), &expected) == INSOLE_OK) {
+                                      insole_body_share(cos_bearing[view]),
+                                      &expected) == INSOLE_OK) {
             insole_real_t deviation_db = field->heard_dbm[k] - expected.rss_dbm - field->offset_db;
             sums->log_likelihood[view] +=
                 insole_propagation_log_likelihood(building->propagation, deviation_db);

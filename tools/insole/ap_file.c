@@ -255,6 +255,27 @@ uint32_t ap_file_number(const ap_file_t *aps, const id_table_t *ids, uint32_t id
                                                                                 : AP_FILE_UNKNOWN;
 }
 
+static void write_number(FILE *file, insole_real_t value, int decimals)
+{
+    char number[NUMBER_ROOM];
+    fprintf(file, ",%s", number_fixed(number, (double)value, decimals));
+}
+
+void ap_file_write(FILE *file, const id_table_t *ids, const insole_ap_t *aps)
+{
+    fputs(HEADER "\n", file);
+    for (size_t i = 0u; i < ids->count; i++) {
+        fputs(ids->names[i], file);
+        write_number(file, aps[i].x_m, 3);
+        write_number(file, aps[i].y_m, 3);
+        write_number(file, aps[i].z_m, 3);
+        write_number(file, aps[i].p0_dbm, 1);
+        write_number(file, aps[i].exponent, 2);
+        write_number(file, aps[i].near_dbm, 1);
+        fputc('\n', file);
+    }
+}
+
 void ap_file_free(ap_file_t *aps)
 {
     id_table_free(&aps->ids);

@@ -42,6 +42,9 @@ bool ap_file_take(ap_file_t *aps, FILE *file, const char *name,
  *  order in which a log first names them, access points in that of their file. */
 uint32_t ap_file_number(const ap_file_t *aps, const id_table_t *ids, uint32_t id);
 
+/** Writes them as a file that ap_file_take reads, names and values by index. */
+void ap_file_write(FILE *file, const id_table_t *ids, const insole_ap_t *aps);
+
 void ap_file_free(ap_file_t *aps);
 
 #endif

@@ -21,6 +21,11 @@ bool calibrate_stride(const arguments_t *arguments, const char *const *sessions,
 bool calibrate_gyro_scale(const arguments_t *arguments, const char *const *sessions, size_t count,
                           FILE *file, failure_t *failure);
 
+/** Path loss from surveys: sessions with rss and truth, `--aps`, `--plan`, `--height`; writes
+ * access points to `--out`. */
+bool calibrate_pathloss(const arguments_t *arguments, const char *const *sessions, size_t count,
+                        FILE *file, failure_t *failure);
+
 /** Prints `key = value` with so many decimals. */
 void calibrate_line(FILE *file, const char *key, double value, int decimals);
 

@@ -39,21 +39,6 @@ static bool keep_stride(void *context, const foot_event_t *event, failure_t *fai
     return true;
 }
 
-/* Where the truth is at a time. @return false outside it */
-static bool place_at(const track_t *truth, int64_t t_us, double *x_m, double *y_m)
-{
-    for (size_t i = 1u; i < truth->count; i++) {
-        const track_row_t *a = &truth->rows[i - 1u], *b = &truth->rows[i];
-        if (a->t_us <= t_us && t_us <= b->t_us && a->t_us < b->t_us) {
-            double share = (double)(t_us - a->t_us) / (double)(b->t_us - a->t_us);
-            *x_m = a->x_m + share * (b->x_m - a->x_m);
-            *y_m = a->y_m + share * (b->y_m - a->y_m);
-            return true;
-        }
-    }
-    return false;
-}
-
 /* True length of a stride where there is truth, else the inertial one; 0: not to be used. */
 static double length_of(const foot_event_t *stride, const track_t *truth)
 {
@@ -61,8 +46,8 @@ static double length_of(const foot_event_t *stride, const track_t *truth)
     if (truth->count == 0u) {
         return stride->length_m;
     }
-    if (!place_at(truth, stride->begin_us, &x0, &y0) ||
-        !place_at(truth, stride->end_us, &x1, &y1)) {
+    if (!track_place(truth, stride->begin_us, &x0, &y0) ||
+        !track_place(truth, stride->end_us, &x1, &y1)) {
         return 0.0;
     }
     return hypot(x1 - x0, y1 - y0);

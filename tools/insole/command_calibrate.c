@@ -13,8 +13,10 @@ typedef struct {
                 failure_t *failure);
 } calibration_t;
 
-static const calibration_t calibrations[] = {
-    {"imu", calibrate_imu}, {"stride", calibrate_stride}, {"gyro-scale", calibrate_gyro_scale}};
+static const calibration_t calibrations[] = {{"imu", calibrate_imu},
+                                             {"stride", calibrate_stride},
+                                             {"gyro-scale", calibrate_gyro_scale},
+                                             {"pathloss", calibrate_pathloss}};
 
 static const calibration_t *find_calibration(const char *name)
 {
@@ -31,8 +33,8 @@ static bool run(const arguments_t *arguments, failure_t *failure)
     const char *name = arguments->operand_count > 0u ? arguments->operands[0] : "nothing";
     const calibration_t *calibration = find_calibration(name);
     if (calibration == NULL) {
-        return failure_usage(failure, "insole calibrate %.40s: expected imu, stride or gyro-scale",
-                             name);
+        return failure_usage(
+            failure, "insole calibrate %.40s: expected imu, stride, gyro-scale or pathloss", name);
     }
     if (arguments->operand_count < 2u) {
         return failure_usage(failure, "insole calibrate %s: no log: expected one or more", name);
@@ -42,14 +44,19 @@ static bool run(const arguments_t *arguments, failure_t *failure)
            output_flush(stdout, "-", failure);
 }
 
-static const option_t options[] = {{"turns", "N", "gyro-scale: how many whole turns"},
-                                   {"accel-unit", "UNIT", "mps2 (default), g or mg"},
-                                   {"gyro-unit", "UNIT", "radps (default) or dps"},
-                                   {NULL, NULL, NULL}};
+static const option_t options[] = {
+    {"turns", "N", "gyro-scale: how many whole turns"},
+    {"accel-unit", "UNIT", "mps2 (default), g or mg"},
+    {"gyro-unit", "UNIT", "radps (default) or dps"},
+    {"aps", "FILE", "pathloss: where the access points are"},
+    {"plan", "FILE", "pathloss: floor plan, for the walls"},
+    {"height", "M", "pathloss: receiver above the floor (default 0)"},
+    {"out", "FILE", "pathloss: write the access points there"},
+    {NULL, NULL, NULL}};
 
 const command_t command_calibrate = {
     "calibrate",
-    "imu|stride|gyro-scale SESSION...",
+    "imu|stride|gyro-scale|pathloss SESSION...",
     "measure what the defaults cannot know",
     "Every SESSION (a file or a folder) stands for itself. What is printed are config lines for\n"
     "`replay --config FILE`.\n"
@@ -60,8 +67,13 @@ const command_t command_calibrate = {
     "              truth where the session holds one, else by the inertial strides\n"
     "  gyro-scale  from one log: the sensor rests for 2 s, is turned N whole turns about any one\n"
     "              axis, and rests for 2 s again in the same pose\n"
+    "  pathloss    how strong access points are heard, from surveys: rss and truth records. Tells\n"
+    "              p0, exponent, losses of walls and body, sigma, how good they are, and what "
+    "looks\n"
+    "              misplaced; --out writes the access points with the values of each\n"
     "\n"
     "  insole calibrate imu desk.csv >> my.conf\n"
-    "  insole calibrate gyro-scale chair.csv --turns 10 >> my.conf\n",
+    "  insole calibrate gyro-scale chair.csv --turns 10 >> my.conf\n"
+    "  insole calibrate pathloss survey --plan plan.csv --aps aps.csv --out new.csv >> my.conf\n",
     options,
     run};

@@ -38,6 +38,35 @@ void track_sort(track_t *track)
     }
 }
 
+/* Number of the first row after a time. */
+static size_t first_after(const track_t *track, int64_t t_us)
+{
+    size_t low = 0u, high = track->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2u;
+        if (track->rows[middle].t_us <= t_us) {
+            low = middle + 1u;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+bool track_place(const track_t *track, int64_t t_us, double *x_m, double *y_m)
+{
+    size_t after = first_after(track, t_us);
+    if (after == 0u || (after == track->count && track->rows[after - 1u].t_us < t_us)) {
+        return false;
+    }
+    const track_row_t *a = &track->rows[after - 1u];
+    const track_row_t *b = after < track->count ? a + 1 : a;
+    double share = b == a ? 0.0 : (double)(t_us - a->t_us) / (double)(b->t_us - a->t_us);
+    *x_m = a->x_m + share * (b->x_m - a->x_m);
+    *y_m = a->y_m + share * (b->y_m - a->y_m);
+    return true;
+}
+
 void track_free(track_t *track)
 {
     free(track->rows);

@@ -7,6 +7,7 @@
 #ifndef INSOLE_HOST_TRACK_H
 #define INSOLE_HOST_TRACK_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "insole/base/types.h"
@@ -34,6 +35,10 @@ void track_add_record(track_t *track, const record_t *record);
 
 /** Puts the rows in order of time. */
 void track_sort(track_t *track);
+
+/** Where a sorted track is at a time, interpolated. @return false before its begin, after its end
+ */
+bool track_place(const track_t *track, int64_t t_us, double *x_m, double *y_m);
 
 void track_free(track_t *track);
 

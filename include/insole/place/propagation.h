@@ -80,6 +80,16 @@ static inline bool insole_ap_has_model(const insole_ap_t *ap)
            insole_is_finite(ap->exponent);
 }
 
+/** How much of the body stands in the way: none of it for what lies ahead, all of it for what lies
+ *  behind, and what lies to the side sees it come in.
+ *  @param cos_bearing  cosine of the angle between the walker's direction and the access point
+ *  @return 0 .. 1 */
+static inline insole_real_t insole_body_share(insole_real_t cos_bearing)
+{
+    insole_real_t share = INSOLE_R(0.5) - INSOLE_R(1.5) * cos_bearing;
+    return insole_max(INSOLE_R(0.0), insole_min(share, INSOLE_R(1.0)));
+}
+
 /** What is to be heard of an access point. */
 typedef struct {
     insole_real_t distance_m;

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT */
+#include "survey.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "memory.h"
+#include "session.h"
+#include "track.h"
+
+/* A walker's direction is that of the way from this long before to this long after; on a shorter
+ * way they stand. */
+static const int64_t around_us = 1000000;
+static const double shortest_way_m = 0.6;
+
+/* A record of rss as it is read, before the truth is complete. */
+typedef struct {
+    int64_t t_us, heard_us;
+    uint32_t id;
+    double dbm;
+} signal_t;
+
+typedef struct {
+    survey_t *survey;
+    session_t session;
+    track_t truth;
+    signal_t *signals;
+    size_t count, room;
+} reader_t;
+
+static void keep_signal(reader_t *reader, const record_t *record)
+{
+    double age_s = isfinite(record->value[1]) ? record->value[1] : 0.0;
+    if (!isfinite(record->value[0])) {
+        reader->survey->unheard++;
+        return;
+    }
+    const signal_t signal = {
+        record->t_us, record->t_us - (int64_t)llround(1e6 * age_s),
+        id_table_number(&reader->survey->ids, reader->session.ids.names[record->id]),
+        record->value[0]};
+    reader->signals =
+        memory_room(reader->signals, &reader->room, reader->count + 1u, sizeof *reader->signals);
+    reader->signals[reader->count++] = signal;
+}
+
+static bool read_session(reader_t *reader, const char *path, failure_t *failure)
+{
+    record_t record;
+    read_t answer = READ_FAILED;
+    if (session_open(&reader->session, &path, 1u, failure)) {
+        while ((answer = session_next(&reader->session, &record, failure)) == READ_ONE) {
+            if (record.kind == RECORD_TRUTH) {
+                track_add_record(&reader->truth, &record);
+            } else if (record.kind == RECORD_RSS) {
+                keep_signal(reader, &record);
+            }
+        }
+    }
+    session_close(&reader->session);
+    return answer == READ_END;
+}
+
+static void add_scan(survey_t *survey)
+{
+    const survey_scan_t scan = {survey->sessions, survey->reading_count, 0u};
+    survey->scans =
+        memory_room(survey->scans, &survey->scan_room, survey->scan_count + 1u, sizeof scan);
+    survey->scans[survey->scan_count++] = scan;
+}
+
+static void find_heading(const track_t *truth, int64_t t_us, survey_reading_t *reading)
+{
+    double x0, y0, x1, y1;
+    if (track_place(truth, t_us - around_us, &x0, &y0) &&
+        track_place(truth, t_us + around_us, &x1, &y1)) {
+        double way_m = hypot(x1 - x0, y1 - y0);
+        reading->cos_heading = way_m < shortest_way_m ? 0.0 : (x1 - x0) / way_m;
+        reading->sin_heading = way_m < shortest_way_m ? 0.0 : (y1 - y0) / way_m;
+    }
+}
+
+static void add_reading(survey_t *survey, const survey_reading_t *reading)
+{
+    survey->readings = memory_room(survey->readings, &survey->reading_room,
+                                   survey->reading_count + 1u, sizeof *reading);
+    survey->readings[survey->reading_count++] = *reading;
+    survey->scans[survey->scan_count - 1u].count++;
+}
+
+static int compare_signals(const void *a, const void *b)
+{
+    const signal_t *s = a, *t = b;
+    if (s->t_us != t->t_us) {
+        return s->t_us < t->t_us ? -1 : 1;
+    }
+    return (s->id > t->id) - (s->id < t->id);
+}
+
+static void place_signals(reader_t *reader)
+{
+    const signal_t *last = NULL;
+    if (reader->count > 1u) {
+        qsort(reader->signals, reader->count, sizeof *reader->signals, compare_signals);
+    }
+    for (size_t i = 0u; i < reader->count; i++) {
+        const signal_t *signal = &reader->signals[i];
+        survey_reading_t reading = {signal->id, signal->dbm, 0.0, 0.0, 0.0, 0.0};
+        if (!track_place(&reader->truth, signal->heard_us, &reading.x_m, &reading.y_m)) {
+            reader->survey->outside++;
+            continue;
+        }
+        find_heading(&reader->truth, signal->heard_us, &reading);
+        if (last == NULL || last->t_us != signal->t_us) {
+            add_scan(reader->survey);
+        }
+        add_reading(reader->survey, &reading);
+        last = signal;
+    }
+}
+
+static bool check_session(const reader_t *reader, const char *path, failure_t *failure)
+{
+    if (reader->truth.count == 0u) {
+        return failure_input(failure,
+                             "%s: no truth: a survey tells where it was made, by truth records or "
+                             "a file t,x,y in the same folder",
+                             path);
+    }
+    return reader->count > 0u ||
+           failure_input(failure, "%s: no signal strengths: expected rss records", path);
+}
+
+bool survey_add(survey_t *survey, const char *path, failure_t *failure)
+{
+    reader_t reader;
+    memset(&reader, 0, sizeof reader);
+    reader.survey = survey;
+    bool is_good = read_session(&reader, path, failure) && check_session(&reader, path, failure);
+    if (is_good) {
+        track_sort(&reader.truth);
+        place_signals(&reader);
+        survey->sessions++;
+    }
+    track_free(&reader.truth);
+    free(reader.signals);
+    return is_good;
+}
+
+void survey_free(survey_t *survey)
+{
+    id_table_free(&survey->ids);
+    free(survey->readings);
+    free(survey->scans);
+    memset(survey, 0, sizeof *survey);
+}
