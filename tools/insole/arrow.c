@@ -31,12 +31,12 @@ void arrow_add(arrow_t *arrow, size_t group, const double common[ARROW_COMMON],
     arrow_group_t *g = &arrow->groups[group];
     for (int i = 0; i < ARROW_COMMON; i++) {
         for (int j = 0; j < ARROW_COMMON; j++) {
-            arrow->A[i][j] += weight * common[i] * common[j];
+            g->A[i][j] += weight * common[i] * common[j];
         }
         for (int k = 0; k < ARROW_OWN; k++) {
             g->C[i][k] += weight * common[i] * own[k];
         }
-        arrow->pull[i] += weight * common[i] * value;
+        g->common_pull[i] += weight * common[i] * value;
     }
     for (int i = 0; i < ARROW_OWN; i++) {
         for (int j = 0; j < ARROW_OWN; j++) {
@@ -65,7 +65,7 @@ static void lever(const arrow_group_t *g, double D[ARROW_COMMON][ARROW_OWN])
     }
 }
 
-/* A - C B^-1 C' and what pulls at it. */
+/* A - C B^-1 C' and what pulls at it: what the group tells about the common unknowns alone. */
 static void eliminate(arrow_t *arrow, arrow_group_t *g)
 {
     double D[ARROW_COMMON][ARROW_OWN];
@@ -73,9 +73,11 @@ static void eliminate(arrow_t *arrow, arrow_group_t *g)
     lever(g, D);
     for (int i = 0; i < ARROW_COMMON; i++) {
         for (int j = 0; j < ARROW_COMMON; j++) {
-            arrow->A[i][j] -= D[i][0] * g->C[j][0] + D[i][1] * g->C[j][1];
+            g->A[i][j] -= D[i][0] * g->C[j][0] + D[i][1] * g->C[j][1];
+            arrow->A[i][j] += g->A[i][j];
         }
-        arrow->pull[i] -= D[i][0] * g->pull[0] + D[i][1] * g->pull[1];
+        g->common_pull[i] -= D[i][0] * g->pull[0] + D[i][1] * g->pull[1];
+        arrow->pull[i] += g->common_pull[i];
     }
 }
 
@@ -125,6 +127,36 @@ static void solve_group(const arrow_t *arrow, arrow_group_t *g)
     }
 }
 
+/* Where a group alone would pull the solution. */
+static void pull_of_group(const arrow_t *arrow, const arrow_group_t *g, double step[ARROW_COMMON])
+{
+    double pull[ARROW_COMMON];
+    for (int i = 0; i < ARROW_COMMON; i++) {
+        pull[i] = g->common_pull[i];
+        for (int j = 0; j < ARROW_COMMON; j++) {
+            pull[i] -= g->A[i][j] * arrow->x[j];
+        }
+    }
+    for (int i = 0; i < ARROW_COMMON; i++) {
+        step[i] = 0.0;
+        for (int j = 0; j < ARROW_COMMON; j++) {
+            step[i] += arrow->P[i][j] * pull[j];
+        }
+    }
+}
+
+/* The squares of these pulls add up to the variance, for groups that err independently. */
+static void find_variance(arrow_t *arrow)
+{
+    double groups = (double)arrow->count, step[ARROW_COMMON];
+    for (size_t g = 0u; g < arrow->count; g++) {
+        pull_of_group(arrow, &arrow->groups[g], step);
+        for (int k = 0; k < ARROW_COMMON; k++) {
+            arrow->variance[k] += step[k] * step[k] * groups / fmax(1.0, groups - 1.0);
+        }
+    }
+}
+
 bool arrow_solve(arrow_t *arrow)
 {
     for (size_t g = 0u; g < arrow->count; g++) {
@@ -141,6 +173,7 @@ bool arrow_solve(arrow_t *arrow)
     for (size_t g = 0u; g < arrow->count; g++) {
         solve_group(arrow, &arrow->groups[g]);
     }
+    find_variance(arrow);
     return true;
 }
 

@@ -19,10 +19,13 @@
 
 enum { ARROW_COMMON = 5, ARROW_OWN = 2 };
 
-/** The unknowns of one group; the first two common unknowns are what they deviate from. */
+/** The equations and unknowns of one group; the first two common unknowns are what they deviate
+ * from. */
 typedef struct {
-    double B[ARROW_OWN][ARROW_OWN];    /**< information */
-    double C[ARROW_COMMON][ARROW_OWN]; /**< with the common unknowns */
+    double A[ARROW_COMMON][ARROW_COMMON]; /**< information about the common unknowns */
+    double common_pull[ARROW_COMMON];
+    double B[ARROW_OWN][ARROW_OWN];    /**< about its own */
+    double C[ARROW_COMMON][ARROW_OWN]; /**< about both */
     double pull[ARROW_OWN];
     double x[ARROW_OWN];            /**< solution */
     double variance[ARROW_OWN];     /**< of it */
@@ -34,6 +37,8 @@ typedef struct {
     double pull[ARROW_COMMON];
     double x[ARROW_COMMON];               /**< solution */
     double P[ARROW_COMMON][ARROW_COMMON]; /**< covariance of it */
+    double variance[ARROW_COMMON]; /**< as the groups contradict each other: of any kind of error
+                                        that is a group's own */
     arrow_group_t *groups;
     size_t count;
 } arrow_t;

@@ -10,7 +10,7 @@
 
 enum { ITERATIONS = 40, SCALE_ITERATIONS = 20 };
 
-static const double done = 1e-5; /* change of a value, in standard errors: no more to come */
+static const double done = 1e-3; /* change of a value, in standard errors: no more to come */
 
 /* What is known before anything was heard: hardly more than the order of magnitude. */
 static const double known_sigma[PATH_UNKNOWNS] = {20.0, 1.5, 1.0, 10.0, 10.0};
@@ -296,7 +296,7 @@ static double take(path_fit_t *fit, const arrow_t *arrow)
         double error = sqrt(arrow->P[k][k]);
         change = fmax(change, fabs(arrow->x[k] - fit->value[k]) / error);
         fit->value[k] = arrow->x[k];
-        fit->error[k] = error * sqrt(factor);
+        fit->error[k] = sqrt(fmax(arrow->P[k][k] * factor, arrow->variance[k]));
     }
     fit->value[PATH_TOLD] = fmax(0.0, fit->value[PATH_TOLD]);
     fit->value[PATH_WALL] = fmax(0.0, fit->value[PATH_WALL]);

@@ -2,7 +2,10 @@
 #include "sim/errands.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "sim/algebra.h"
+#include "sim/grid.h"
 #include "sim/seeds.h"
 #include "sim/way.h"
 
@@ -17,6 +20,7 @@ typedef struct {
     insole_rng_t rng;
     sim_list_t *orders;
     sim_point_t here;
+    double heading_rad; /* of the last walk */
     sim_error_t *error;
 } planner_t;
 
@@ -78,26 +82,41 @@ static bool draw_way(planner_t *p, sim_list_t *points)
 
 /* --- orders --- */
 
-static bool add_way(planner_t *p, const sim_list_t *points, int line)
+static double draw_speed(planner_t *p)
 {
     double spread = p->settings->speed_spread * (double)insole_rng_normal(&p->rng);
-    double speed = p->settings->speed_mps * (1.0 + spread);
+    return fmax(slowest_mps, fmin(fastest_mps, p->settings->speed_mps * (1.0 + spread)));
+}
+
+static bool add_walks(planner_t *p, const sim_list_t *points, int line)
+{
+    double speed_mps = draw_speed(p);
     for (size_t i = 1; i < points->count; i++) {
         const sim_point_t *to = sim_list_at(points, i);
         sim_order_t walk = {.kind = SIM_ORDER_WALK,
                             .line = line,
                             .x_m = to->x_m,
                             .y_m = to->y_m,
-                            .speed_mps = fmax(slowest_mps, fmin(fastest_mps, speed))};
+                            .speed_mps = speed_mps};
         if (!add_order(p, &walk)) {
             return false;
         }
+        p->heading_rad = atan2(to->y_m - p->here.y_m, to->x_m - p->here.x_m);
         p->here = *to;
     }
-    sim_order_t pause = {.kind = SIM_ORDER_PAUSE,
-                         .line = line,
-                         .seconds = 2.0 * p->settings->pause_s * uniform(&p->rng)};
+    return true;
+}
+
+static bool add_pause(planner_t *p, double seconds, int line)
+{
+    sim_order_t pause = {.kind = SIM_ORDER_PAUSE, .line = line, .seconds = seconds};
     return add_order(p, &pause);
+}
+
+static bool add_way(planner_t *p, const sim_list_t *points, int line)
+{
+    return add_walks(p, points, line) &&
+           add_pause(p, 2.0 * p->settings->pause_s * uniform(&p->rng), line);
 }
 
 static bool add_errand(planner_t *p, int line)
@@ -131,7 +150,7 @@ static bool open_map(planner_t *p)
         return true;
     }
     if (p->scenario->plan.walls.count == 0) {
-        return sim_fail(p->error, "errands without a plan, expected plan,FILE");
+        return sim_fail(p->error, "no plan, expected plan,FILE");
     }
     if (!sim_way_map(&p->map, &p->scenario->plan, p->settings->clearance_m)) {
         return sim_fail(p->error, "out of memory");
@@ -153,6 +172,85 @@ static bool add_errands(planner_t *p, const sim_order_t *order)
         }
     }
     return true;
+}
+
+/* --- surveys --- */
+
+/* Looks in all directions, one after the other. */
+static bool add_stop(planner_t *p, int line)
+{
+    const sim_survey_settings_t *survey = &p->scenario->settings.survey;
+    int directions = (int)survey->directions;
+    bool good = add_pause(p, survey->pause_s, line);
+    for (int i = 1; good && i < directions; i++) {
+        sim_order_t turn = {.kind = SIM_ORDER_TURN, .line = line};
+        turn.heading_rad = sim_wrap_pi(p->heading_rad + 2.0 * SIM_PI * i / directions);
+        good = add_order(p, &turn) && add_pause(p, survey->pause_s, line);
+    }
+    return good;
+}
+
+/* The nearest point that is not done and not too near to walk to; NULL: there is none. */
+static const sim_point_t *nearest_point(const planner_t *p, const sim_list_t *points,
+                                        const bool *is_done, size_t *number)
+{
+    const sim_point_t *nearest = NULL;
+    double least = HUGE_VAL;
+    for (size_t i = 0; i < points->count; i++) {
+        const sim_point_t *at = sim_list_at(points, i);
+        double far = hypot(at->x_m - p->here.x_m, at->y_m - p->here.y_m);
+        if (!is_done[i] && far >= shortest_leg_m && far < least) {
+            least = far;
+            nearest = at;
+            *number = i;
+        }
+    }
+    return nearest;
+}
+
+/* Goes to the point, if that can be done in steps. */
+static bool visit(planner_t *p, const sim_point_t *point, int line)
+{
+    sim_list_t way;
+    if (!sim_way_find(&p->map, p->here, *point, &way)) {
+        return true;
+    }
+    bool good = !has_long_legs(&way) || (add_walks(p, &way, line) && add_stop(p, line));
+    sim_list_free(&way);
+    return good;
+}
+
+static bool visit_all(planner_t *p, const sim_list_t *points, int line)
+{
+    bool *is_done = calloc(points->count + 1, sizeof *is_done), good = is_done != NULL;
+    const sim_point_t *next;
+    size_t number = 0;
+    while (good && (next = nearest_point(p, points, is_done, &number)) != NULL) {
+        is_done[number] = true;
+        good = visit(p, next, line);
+    }
+    free(is_done);
+    return good || sim_fail(p->error, "out of memory");
+}
+
+static bool add_survey(planner_t *p, const sim_order_t *order)
+{
+    sim_list_t points;
+    if (!open_map(p)) {
+        return sim_fail_on_line(p->error, order->line);
+    }
+    if (!sim_grid(&p->scenario->plan, order->spacing_m, p->settings->clearance_m, &points)) {
+        return sim_fail(p->error, "out of memory");
+    }
+    bool good = points.count > 0;
+    if (good) {
+        good = visit_all(p, &points, order->line);
+    } else {
+        sim_fail(p->error, "no point of the grid is inside the plan, expected a smaller spacing");
+        sim_fail_on_line(p->error, order->line);
+    }
+    sim_list_free(&points);
+    return good;
 }
 
 /* An order that its author wrote: it may not lead through walls. */
@@ -178,7 +276,9 @@ static bool take_orders(planner_t *p)
 {
     for (size_t i = 0; i < p->scenario->orders.count; i++) {
         const sim_order_t *order = sim_list_at(&p->scenario->orders, i);
-        bool good = order->kind == SIM_ORDER_ERRANDS ? add_errands(p, order) : take_order(p, order);
+        bool good = order->kind == SIM_ORDER_ERRANDS  ? add_errands(p, order)
+                    : order->kind == SIM_ORDER_SURVEY ? add_survey(p, order)
+                                                      : take_order(p, order);
         if (!good) {
             return false;
         }

@@ -246,6 +246,7 @@ static bool add_order(planner_t *p, size_t *number)
         return add_turn(p, order->heading_rad);
     case SIM_ORDER_START:
     case SIM_ORDER_ERRANDS:
+    case SIM_ORDER_SURVEY:
         break;
     }
     return sim_fail(p->error, "an order is out of place");

@@ -55,6 +55,7 @@ static const form_t forms[] = {
     {"pause", SIM_ORDER_PAUSE, 1, 1, "pause,seconds", {FIELD("seconds", seconds, 0.0, 36000.0)}},
     {"turn", SIM_ORDER_TURN, 1, 1, "turn,heading", {FIELD_HEADING}},
     {"errands", SIM_ORDER_ERRANDS, 1, 1, "errands,goals", {FIELD("goals", goals, 1.0, 1000.0)}},
+    {"survey", SIM_ORDER_SURVEY, 1, 1, "survey,spacing", {FIELD("spacing", spacing_m, 1.0, 50.0)}},
 };
 
 static const form_t *find_form(const char *name)
@@ -97,11 +98,11 @@ static bool read_order(sim_scenario_t *scenario, const char *name, char *rest, i
 {
     const form_t *form = find_form(name);
     if (form == NULL) {
-        return sim_fail(
-            error,
-            "'%.60s' is no order, expected start, walk, stairs, pause, turn, errands, goal, plan, "
-            "aps or key = value",
-            name);
+        return sim_fail(error,
+                        "'%.60s' is no order, expected start, walk, stairs, pause, turn, errands, "
+                        "survey, goal, "
+                        "plan, aps or key = value",
+                        name);
     }
     bool is_first = scenario->orders.count == 0;
     if (is_first != (form->kind == SIM_ORDER_START)) {

@@ -20,12 +20,13 @@
 #include "sim/settings.h"
 
 typedef enum {
-    SIM_ORDER_START,  /**< stand at x, y, z looking along heading */
-    SIM_ORDER_WALK,   /**< go to x, y at a speed */
-    SIM_ORDER_STAIRS, /**< climb to x, y, z at a speed */
-    SIM_ORDER_PAUSE,  /**< stand for some seconds */
-    SIM_ORDER_TURN,   /**< turn on the spot to a heading */
-    SIM_ORDER_ERRANDS /**< go to some goals, one after the other */
+    SIM_ORDER_START,   /**< stand at x, y, z looking along heading */
+    SIM_ORDER_WALK,    /**< go to x, y at a speed */
+    SIM_ORDER_STAIRS,  /**< climb to x, y, z at a speed */
+    SIM_ORDER_PAUSE,   /**< stand for some seconds */
+    SIM_ORDER_TURN,    /**< turn on the spot to a heading */
+    SIM_ORDER_ERRANDS, /**< go to some goals, one after the other */
+    SIM_ORDER_SURVEY   /**< go to all points of a grid and stop at each */
 } sim_order_kind_t;
 
 /** What a kind does not name is 0. */
@@ -36,7 +37,8 @@ typedef struct {
     double heading_rad; /**< counter-clockwise from +x */
     double speed_mps;
     double seconds;
-    double goals; /**< a whole number */
+    double goals;     /**< a whole number */
+    double spacing_m; /**< of the grid */
 } sim_order_t;
 
 /** A goal of errands. */

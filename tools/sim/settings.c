@@ -21,12 +21,14 @@
     ROW("radio", offsetof(sim_settings_t, radio), sim_radio_settings_t, __VA_ARGS__)
 #define ERRANDS_ROW(...)                                                                           \
     ROW("errands", offsetof(sim_settings_t, errands), sim_errands_settings_t, __VA_ARGS__)
+#define SURVEY_ROW(...)                                                                            \
+    ROW("survey", offsetof(sim_settings_t, survey), sim_survey_settings_t, __VA_ARGS__)
 #define LOG_ROW(...) ROW("log", offsetof(sim_settings_t, log), sim_log_settings_t, __VA_ARGS__)
 
 const sim_settings_t sim_settings_defaults = {
-    {SIM_WALK_KEYS(DEFAULT)}, {SIM_GAIT_KEYS(DEFAULT)},  {SIM_MOUNT_KEYS(DEFAULT)},
-    {SIM_IMU_KEYS(DEFAULT)},  {SIM_RADIO_KEYS(DEFAULT)}, {SIM_ERRANDS_KEYS(DEFAULT)},
-    {SIM_LOG_KEYS(DEFAULT)}};
+    {SIM_WALK_KEYS(DEFAULT)},   {SIM_GAIT_KEYS(DEFAULT)},  {SIM_MOUNT_KEYS(DEFAULT)},
+    {SIM_IMU_KEYS(DEFAULT)},    {SIM_RADIO_KEYS(DEFAULT)}, {SIM_ERRANDS_KEYS(DEFAULT)},
+    {SIM_SURVEY_KEYS(DEFAULT)}, {SIM_LOG_KEYS(DEFAULT)}};
 
 /* clang-format off */
 static const sim_key_t keys[] = {
@@ -36,6 +38,7 @@ static const sim_key_t keys[] = {
     SIM_IMU_KEYS(IMU_ROW)
     SIM_RADIO_KEYS(RADIO_ROW)
     SIM_ERRANDS_KEYS(ERRANDS_ROW)
+    SIM_SURVEY_KEYS(SURVEY_ROW)
     SIM_LOG_KEYS(LOG_ROW)
 };
 /* clang-format on */

@@ -175,11 +175,19 @@
     KEY(REAL, shortest_m, 6.0, 0.0, 1000.0, "m", "a goal is at least this far")                    \
     KEY(REAL, clearance_m, 0.45, 0.2, 2.0, "m", "distance kept from walls")
 
+/** Stops at the reference points of a survey. */
+#define SIM_SURVEY_KEYS(KEY)                                                                       \
+    KEY(REAL, pause_s, 4.0, 0.5, 600.0, "s", "time at each point in each direction")               \
+    KEY(REAL, directions, 1.0, 1.0, 8.0, "1",                                                      \
+        "so many directions are looked in at each point, evenly spread; whole")
+
 /** What is written. */
 #define SIM_LOG_KEYS(KEY)                                                                          \
     KEY(CHOICE, start, 1, 0, 1, "none|known", "whether the log tells where the walk begins")       \
     KEY(REAL, start_sigma_m, 0.0, 0.0, 100.0, "m", "error of that, 1-sigma of each coordinate")    \
     KEY(REAL, start_sigma_rad, 0.0, 0.0, 3.0, "rad", "error of its heading, 1-sigma")              \
+    KEY(CHOICE, imu, 1, 0, 1, "none|all", "whether the log holds the sensor's samples")            \
+    KEY(CHOICE, truth, 0, 0, 1, "sensor|body", "whose place the truth is")                         \
     KEY(REAL, truth_hz, 50.0, 0.0, 1000.0, "Hz", "rows of the truth; 0 = one per sensor sample")
 
 typedef double sim_key_type_REAL;
@@ -205,6 +213,9 @@ typedef struct {
     SIM_ERRANDS_KEYS(SIM_KEY_MEMBER)
 } sim_errands_settings_t;
 typedef struct {
+    SIM_SURVEY_KEYS(SIM_KEY_MEMBER)
+} sim_survey_settings_t;
+typedef struct {
     SIM_LOG_KEYS(SIM_KEY_MEMBER)
 } sim_log_settings_t;
 
@@ -212,6 +223,8 @@ enum { SIM_FOOT_RIGHT, SIM_FOOT_LEFT };
 enum { SIM_MODEL_FULL, SIM_MODEL_MATCHED, SIM_MODEL_IDEAL };
 enum { SIM_SAMPLING_AVERAGE, SIM_SAMPLING_POINT };
 enum { SIM_CLIP_HARD, SIM_CLIP_SOFT };
+enum { SIM_IMU_NONE, SIM_IMU_ALL };
+enum { SIM_TRUTH_OF_SENSOR, SIM_TRUTH_OF_BODY };
 enum { SIM_START_NONE, SIM_START_KNOWN };
 enum { SIM_RADIO_FULL, SIM_RADIO_MATCHED, SIM_RADIO_OFF };
 enum { SIM_AGE_SILENT, SIM_AGE_TOLD };
@@ -225,6 +238,7 @@ typedef struct {
     sim_imu_settings_t imu;
     sim_radio_settings_t radio;
     sim_errands_settings_t errands;
+    sim_survey_settings_t survey;
     sim_log_settings_t log;
 } sim_settings_t;
 

@@ -20,13 +20,26 @@ static sim_place_t middle(const sim_steps_t *steps, size_t number)
     return between(&a->place, &b->place, 0.5);
 }
 
+/* Number of the first footfall that is not before t; strikes follow each other in time. */
+static size_t next_step(const sim_steps_t *steps, double t_s)
+{
+    size_t low = 2, high = steps->steps.count;
+    while (low < high) {
+        size_t half = low + (high - low) / 2;
+        const sim_step_t *step = sim_list_at(&steps->steps, half);
+        if (step->strike_s < t_s) {
+            low = half + 1;
+        } else {
+            high = half;
+        }
+    }
+    return low;
+}
+
 sim_place_t sim_trunk_at(const sim_steps_t *steps, double t_s)
 {
-    size_t number = 2; /* of the first footfall that is not before t */
+    size_t number = next_step(steps, t_s);
     const sim_step_t *step = sim_list_at(&steps->steps, number);
-    while (step != NULL && step->strike_s < t_s) {
-        step = sim_list_at(&steps->steps, ++number);
-    }
     sim_place_t from = middle(steps, number - 1);
     if (step == NULL) {
         return from;

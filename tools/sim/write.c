@@ -10,14 +10,15 @@
 
 #include "sim/scans.h"
 #include "sim/site.h"
+#include "sim/survey.h"
+#include "sim/trunk.h"
 
 /* The files of one walk. */
 typedef struct {
     FILE *log, *truth;
-    double truth_hz;
+    const sim_settings_t *settings;
     long truth_rows;
     const sim_list_t *aps;
-    bool tells_age;
     sim_list_t heard; /* of sim_heard_t */
     size_t written;   /* of those */
 } output_t;
@@ -75,14 +76,24 @@ static void write_imu(FILE *log, const insole_imu_t *imu)
             (double)w.x, (double)w.y, (double)w.z);
 }
 
-static void write_truth(output_t *output, const sim_sample_t *sample)
+static sim_vec3_t true_place(const output_t *output, const sim_walk_t *walk,
+                             const sim_sample_t *sample)
 {
-    double t = sample->truth.t_s, due = 0.0;
-    if (output->truth_hz > 0.0) {
-        due = (double)output->truth_rows / output->truth_hz;
+    if (output->settings->log.truth == SIM_TRUTH_OF_SENSOR) {
+        return sample->truth.pose.position_m;
+    }
+    sim_place_t trunk = sim_trunk_at(sim_walk_steps(walk), sample->truth.t_s);
+    return sim_vec3(trunk.x_m, trunk.y_m, trunk.z_m + output->settings->radio.height_m);
+}
+
+static void write_truth(output_t *output, const sim_walk_t *walk, const sim_sample_t *sample)
+{
+    double t = sample->truth.t_s, due = 0.0, truth_hz = output->settings->log.truth_hz;
+    if (truth_hz > 0.0) {
+        due = (double)output->truth_rows / truth_hz;
     }
     if (t > due - 1e-9) {
-        sim_vec3_t p = sample->truth.pose.position_m;
+        sim_vec3_t p = true_place(output, walk, sample);
         fprintf(output->truth, "%.6f,%.5f,%.5f,%.5f\n", t, p.x, p.y, p.z);
         output->truth_rows++;
     }
@@ -95,7 +106,7 @@ static void write_heard(output_t *output, double t_s)
     while (heard != NULL && heard->t_s <= t_s) {
         const sim_ap_t *ap = sim_list_at(output->aps, heard->ap);
         fprintf(output->log, "rss,%.6f,%s,%.6g", heard->t_s, ap->id, heard->dbm);
-        if (output->tells_age && heard->age_s > 0.0) {
+        if (output->settings->radio.age == SIM_AGE_TOLD && heard->age_s > 0.0) {
             fprintf(output->log, ",%.3f", heard->age_s);
         }
         fputc('\n', output->log);
@@ -109,10 +120,10 @@ static void write_samples(output_t *output, sim_walk_t *walk)
     fputs("t,x,y,z\n", output->truth);
     while (sim_walk_next(walk, &sample)) {
         write_heard(output, sample.truth.t_s);
-        if (sample.given) {
+        if (sample.given && output->settings->log.imu == SIM_IMU_ALL) {
             write_imu(output->log, &sample.imu);
         }
-        write_truth(output, &sample);
+        write_truth(output, walk, &sample);
     }
 }
 
@@ -144,14 +155,12 @@ static bool write_files(output_t *output, sim_walk_t *walk, const sim_log_settin
 static bool write_walk(sim_walk_t *walk, const sim_scenario_t *scenario, const char *folder,
                        uint64_t seed, sim_report_t *report, sim_error_t *error)
 {
-    const sim_log_settings_t *settings = &scenario->settings.log;
-    output_t output = {.truth_hz = settings->truth_hz,
-                       .aps = &scenario->aps,
-                       .tells_age = scenario->settings.radio.age == SIM_AGE_TOLD};
+    output_t output = {.settings = &scenario->settings, .aps = &scenario->aps};
     if (!sim_scans_make(walk, scenario, seed, &output.heard, error)) {
         return false;
     }
-    bool done = write_files(&output, walk, settings, folder, seed, error);
+    bool done = write_files(&output, walk, &scenario->settings.log, folder, seed, error) &&
+                sim_survey_write(walk, scenario, &output.heard, folder, error);
     fill_report(report, walk);
     report->signals = (uint32_t)output.written;
     sim_list_free(&output.heard);
