@@ -3,6 +3,7 @@
 
 #include "buildings.h"
 #include "near.h"
+#include "sim/grid.h"
 #include "suite.h"
 
 #define ROOMS                                                                                      \
@@ -115,12 +116,99 @@ START_TEST(each_seed_is_another_walk_and_the_same_again)
 }
 END_TEST
 
+/* --- surveys --- */
+
+/* Two rooms, of which one cannot be entered. */
+#define SEALED "outline,0,0,24,0,24,12,0,12\nwall,3,12,0,12,12\n"
+
+START_TEST(a_survey_stops_at_every_point_that_can_be_reached)
+{
+    sim_scenario_t scenario = scenario_in("start,1,1,0\nsurvey,3\n", SEALED, "");
+    sim_list_t orders, grid;
+    sim_error_t error;
+    sim_point_t stops[64];
+    ck_assert(sim_errands_plan(&scenario, 1, &orders, &error));
+    ck_assert(sim_grid(&scenario.plan, 3.0, 0.45, &grid));
+    size_t count = stops_of(&orders, stops, 64);
+    ck_assert_uint_eq(grid.count, 32u);
+    ck_assert_uint_eq(count, 16u); /* of the western room */
+    for (size_t i = 0; i < grid.count; i++) {
+        const sim_point_t *p = sim_list_at(&grid, i);
+        int times = 0;
+        for (size_t k = 0; k < count; k++) {
+            times += hypot(stops[k].x_m - p->x_m, stops[k].y_m - p->y_m) < 1e-9 ? 1 : 0;
+        }
+        ck_assert_int_eq(times, p->x_m < 12.0 ? 1 : 0);
+    }
+    sim_list_free(&grid);
+    sim_list_free(&orders);
+    sim_scenario_free(&scenario);
+}
+END_TEST
+
+/* A greedy tour of 16 points 3 m apart is not much longer than the shortest. */
+START_TEST(a_survey_goes_to_the_nearest_point_first)
+{
+    sim_scenario_t scenario = scenario_in("start,1,1,0\nsurvey,3\n", SEALED, "");
+    sim_list_t orders;
+    sim_error_t error;
+    sim_point_t here = {1.0, 1.0};
+    double length_m = 0.0;
+    ck_assert(sim_errands_plan(&scenario, 1, &orders, &error));
+    for (size_t i = 1; i < orders.count; i++) {
+        const sim_order_t *order = order_at(&orders, i);
+        if (order->kind == SIM_ORDER_WALK) {
+            length_m += hypot(order->x_m - here.x_m, order->y_m - here.y_m);
+            here.x_m = order->x_m;
+            here.y_m = order->y_m;
+        }
+    }
+    ASSERT_AT_LEAST(length_m, 45.0, "m");
+    ASSERT_AT_MOST(length_m, 60.0, "m");
+    sim_list_free(&orders);
+    sim_scenario_free(&scenario);
+}
+END_TEST
+
+START_TEST(a_survey_looks_in_all_directions)
+{
+    sim_scenario_t scenario = scenario_in("start,1,1,0\nsurvey,6\nsurvey.directions = 4\n"
+                                          "survey.pause_s = 7\n",
+                                          SEALED, "");
+    sim_list_t orders;
+    sim_error_t error;
+    size_t pauses = 0, turns = 0;
+    ck_assert(sim_errands_plan(&scenario, 1, &orders, &error));
+    for (size_t i = 1; i < orders.count; i++) {
+        const sim_order_t *order = order_at(&orders, i);
+        const sim_order_t *last = order_at(&orders, i - 2);
+        pauses += order->kind == SIM_ORDER_PAUSE ? 1u : 0u;
+        ck_assert(order->kind != SIM_ORDER_PAUSE || order->seconds == 7.0);
+        if (order->kind == SIM_ORDER_TURN) {
+            turns++;
+            ck_assert_int_eq(order_at(&orders, i - 1)->kind, SIM_ORDER_PAUSE);
+            if (last->kind == SIM_ORDER_TURN) {
+                double turned =
+                    remainder(order->heading_rad - last->heading_rad, 2.0 * 3.14159265358979);
+                ASSERT_NEAR(turned, 0.5 * 3.14159265358979, 1e-9, "rad");
+            }
+        }
+    }
+    ck_assert_uint_eq(pauses, 16u); /* 4 points of the western room */
+    ck_assert_uint_eq(turns, 12u);
+    sim_list_free(&orders);
+    sim_scenario_free(&scenario);
+}
+END_TEST
+
 static const struct {
     const char *text, *plan;
     int line;
     const char *says;
 } refusals[] = {
     {"start,1,1,0\nerrands,3\n", "", 2, "errands without a plan, expected plan,FILE"},
+    {"start,1,1,0\nsurvey,3\n", "", 2, "a survey without a plan, expected plan,FILE"},
+    {"start,1,1,0\n\nsurvey,50\n", ROOMS, 3, "no point of the grid is inside the plan"},
     {"start,1,1,0\nwalk,19,1,1\n", ROOMS, 2, "the way to 19,1 crosses a wall of the plan"},
     {"start,1,1,0\nwalk,9,10,1\nwalk,10,8,1\n", ROOMS, 3, "the way to 10,8 crosses a wall"},
     {"start,14.5,5.5,0\n", ROOMS, 1, "14.5,5.5 is not inside the plan"},
@@ -154,6 +242,9 @@ Suite *insole_suite(void)
     suite_add(suite, "walks", errands_become_walks_with_stops);
     suite_add(suite, "goals", named_goals_are_all_there_is);
     suite_add(suite, "seeds", each_seed_is_another_walk_and_the_same_again);
+    suite_add(suite, "surveys", a_survey_stops_at_every_point_that_can_be_reached);
+    suite_add(suite, "surveys", a_survey_goes_to_the_nearest_point_first);
+    suite_add(suite, "surveys", a_survey_looks_in_all_directions);
     suite_add_loop(suite, "refusals", what_cannot_be_done_is_refused,
                    (int)(sizeof refusals / sizeof refusals[0]));
     return suite;

@@ -100,6 +100,8 @@ static const struct {
     {"start,0,0,0\nerrands\n", 2, "too few fields, expected errands,goals"},
     {"start,0,0,0\nerrands,0\n", 2, "goals is '0', expected a number from 1 to 1000"},
     {"start,0,0,0\nerrands,2.5\n", 2, "goals is 2.5, expected a whole number"},
+    {"start,0,0,0\nsurvey\n", 2, "too few fields, expected survey,spacing"},
+    {"start,0,0,0\nsurvey,0.5\n", 2, "spacing is '0.5', expected a number from 1 to 50"},
     {"errands,3\n", 1, "'errands' is out of place"},
     {"goal,1\n", 1, "too few fields, expected goal,x,y[,name]"},
     {"goal,1,a\n", 1, "y is 'a', expected a number"},

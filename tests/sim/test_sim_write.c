@@ -358,6 +358,26 @@ START_TEST(the_demo_takes_a_minute_and_ends_where_it_began)
 }
 END_TEST
 
+START_TEST(a_survey_needs_no_sensor_and_tells_where_the_body_is)
+{
+    char error[512];
+    sim_report_t report;
+    const char *quiet = WALK "log.imu = none\nlog.truth = body\nradio.height_m = 1.3\n";
+    ck_assert_msg(simulate("quiet", quiet, 1, &report, error) == 0, "%s", error);
+    char *log = text_of("quiet", "log.csv"), *truth = text_of("quiet", "truth.csv");
+    double t, p[3];
+    ck_assert_uint_eq(lines_of(log, "imu,"), 0u);
+    ck_assert_uint_eq(lines_of(log, "start,"), 1u);
+    ck_assert_int_eq(sscanf(truth + 8, "%lf,%lf,%lf,%lf\n", &t, &p[0], &p[1], &p[2]), 4);
+    ASSERT_NEAR(p[0], 2.0, 1e-4, "m"); /* between the feet, where the order puts the walker */
+    ASSERT_NEAR(p[1], 3.0, 1e-4, "m");
+    ASSERT_NEAR(p[2], 1.3, 1e-4, "m");
+    ASSERT_NEAR((double)lines_of(truth, "") - 1.0, report.duration_s * 50.0, 1.0, "rows");
+    free(log);
+    free(truth);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("sim/write");
@@ -376,5 +396,6 @@ Suite *insole_suite(void)
     suite_add(suite, "no file", files_that_cannot_be_opened_are_told);
     suite_add(suite, "room", long_errors_fit_the_room);
     suite_add(suite, "demo", the_demo_takes_a_minute_and_ends_where_it_began);
+    suite_add(suite, "files", a_survey_needs_no_sensor_and_tells_where_the_body_is);
     return suite;
 }

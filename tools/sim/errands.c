@@ -144,13 +144,13 @@ static bool check_goals(const planner_t *p)
     return true;
 }
 
-static bool open_map(planner_t *p)
+static bool open_map(planner_t *p, const char *what)
 {
     if (p->map.is_free != NULL) {
         return true;
     }
     if (p->scenario->plan.walls.count == 0) {
-        return sim_fail(p->error, "no plan, expected plan,FILE");
+        return sim_fail(p->error, "%s without a plan, expected plan,FILE", what);
     }
     if (!sim_way_map(&p->map, &p->scenario->plan, p->settings->clearance_m)) {
         return sim_fail(p->error, "out of memory");
@@ -160,7 +160,7 @@ static bool open_map(planner_t *p)
 
 static bool add_errands(planner_t *p, const sim_order_t *order)
 {
-    if (!open_map(p)) {
+    if (!open_map(p, "errands")) {
         return sim_fail_on_line(p->error, order->line);
     }
     if (!check_goals(p)) {
@@ -236,7 +236,7 @@ static bool visit_all(planner_t *p, const sim_list_t *points, int line)
 static bool add_survey(planner_t *p, const sim_order_t *order)
 {
     sim_list_t points;
-    if (!open_map(p)) {
+    if (!open_map(p, "a survey")) {
         return sim_fail_on_line(p->error, order->line);
     }
     if (!sim_grid(&p->scenario->plan, order->spacing_m, p->settings->clearance_m, &points)) {
