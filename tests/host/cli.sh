@@ -422,10 +422,26 @@ lacks err ' in 10 strides'
 
 # ---- calibrate -----------------------------------------------------------------------------
 
-refuses 2 'insole calibrate nothing: expected imu, stride or gyro-scale' calibrate
-refuses 2 'insole calibrate magnet: expected imu, stride or gyro-scale' calibrate magnet walk.csv
+refuses 2 'insole calibrate nothing: expected imu, stride, gyro-scale or pathloss' calibrate
+refuses 2 'insole calibrate magnet: expected imu, stride, gyro-scale or pathloss' calibrate magnet walk.csv
 refuses 2 'insole calibrate imu: no log: expected one or more' calibrate imu
 refuses 2 'insole calibrate gyro-scale: expected one LOG and --turns N' calibrate gyro-scale walk.csv
+refuses 2 'insole calibrate pathloss: no access points: expected --aps FILE, and --plan FILE where there are walls' \
+    calibrate pathloss walk.csv
+printf 'id,x,y\nlobby,5,3\n' >near.csv
+refuses 1 'walk.csv: no truth: a survey tells where it was made, by truth records or a file t,x,y in the same folder' \
+    calibrate pathloss walk.csv --aps near.csv
+awk 'BEGIN { print "truth,0,0,0"; print "truth,30,30,0"
+    for (t = 0; t <= 30; t += 0.5)
+        printf "rss,%.1f,lobby,%.0f\n", t, -42 - 10 * log((t - 5) ^ 2 + 15.25) / log(10) }' >heard.csv
+run calibrate pathloss heard.csv --aps near.csv --out fitted.csv
+status_is 0; empty err
+has out '# calibrate pathloss: 61 readings, 61 scans, 1 session'
+has out 'propagation.p0_dbm = -'
+has fitted.csv 'id,x,y,z,p0_dbm,exponent,near_dbm'
+has fitted.csv 'lobby,5.000,3.000,2.500,-'
+refuses 2 'insole calibrate pathloss: --out near.csv would overwrite what is read' \
+    calibrate pathloss heard.csv --aps near.csv --out near.csv
 run calibrate imu walk.csv
 status_is 1; empty out
 has err 'walk.csv: the sensor moves 2.0 s into the log'
