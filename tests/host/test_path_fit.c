@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "near.h"
+#include "normal_tail.h"
 #include "suite.h"
 
 /* A building of readings: every access point is heard in every square from some distance. */
@@ -260,6 +261,23 @@ START_TEST(what_is_fixed_stays)
 }
 END_TEST
 
+/* Against sums of the density. */
+START_TEST(tails_of_the_normal_distribution)
+{
+    for (double z = -6.0; z <= 4.0; z += 0.5) {
+        double sum = 0.0, step = 1e-4;
+        for (double u = z - 8.0; u < z; u += step) {
+            sum += step * exp(-0.5 * (u + 0.5 * step) * (u + 0.5 * step)) / sqrt(6.283185307179586);
+        }
+        double density = exp(-0.5 * z * z) / sqrt(6.283185307179586);
+        ASSERT_NEAR(normal_below(z) / sum, 1.0, 1e-3, "");
+        ASSERT_NEAR(normal_hazard(z) / (density / sum), 1.0, 1e-3, "");
+    }
+    ASSERT_NEAR(normal_hazard(-8.0001), normal_hazard(-7.9999), 0.13, "");
+    ASSERT_NEAR(normal_hazard(-300.0), 300.0, 1e-9, "");
+}
+END_TEST
+
 START_TEST(an_expectation_is_the_formula)
 {
     path_fit_t fit;
@@ -279,6 +297,7 @@ END_TEST
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("host/path_fit");
+    suite_add(suite, "model", tails_of_the_normal_distribution);
     suite_add(suite, "model", an_expectation_is_the_formula);
     suite_add(suite, "values", what_made_the_readings_is_found_again);
     suite_add(suite, "values", access_points_differ_as_much_as_they_do);

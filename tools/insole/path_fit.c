@@ -7,6 +7,7 @@
 
 #include "arrow.h"
 #include "memory.h"
+#include "normal_tail.h"
 
 enum { ITERATIONS = 40, SCALE_ITERATIONS = 20 };
 
@@ -44,6 +45,7 @@ void path_fit_begin(path_fit_t *fit, const path_survey_t *survey)
     fit->lost_share = 0.05;
     fit->aps = memory_new(survey->ap_count, sizeof *fit->aps);
     fit->weight = memory_new(survey->count, sizeof *fit->weight);
+    fit->expected_dbm = memory_new(survey->count, sizeof *fit->expected_dbm);
     memcpy(fit->value, survey->start, sizeof fit->value);
     memcpy(fit->spread, usual_spread, sizeof fit->spread);
     for (size_t a = 0u; a < survey->ap_count; a++) {
@@ -67,9 +69,17 @@ double path_fit_expect(const path_fit_t *fit, const path_reading_t *reading, boo
            fit->survey.multipath_db; /* [TwoOrder (10)] */
 }
 
-static double residual_of(const path_fit_t *fit, const path_reading_t *reading)
+static void expect_all(path_fit_t *fit)
 {
-    return reading->dbm - path_fit_expect(fit, reading, true);
+    for (size_t i = 0u; i < fit->survey.count; i++) {
+        fit->expected_dbm[i] = path_fit_expect(fit, &fit->survey.readings[i], true);
+    }
+}
+
+/* Not-a-number for a reading that is missing. */
+static double residual_of(const path_fit_t *fit, size_t i)
+{
+    return fit->survey.readings[i].dbm - fit->expected_dbm[i];
 }
 
 /* Weight of a residual under Student's distribution. */
@@ -81,21 +91,10 @@ static double tail_weight(const path_fit_t *fit, double residual_db, double sigm
 
 /* ---- a reading that is missing ---------------------------------------------------------- */
 
-static double normal_below(double z)
-{
-    return 0.5 * erfc(-z * 0.70710678118654752);
-}
-
-/* Density over probability to be below. */
-static double hazard(double z)
-{
-    return z < -8.0 ? -z : exp(-0.5 * z * z) * 0.39894228040143268 / normal_below(z);
-}
-
 /* How many sigmas the floor is above what is expected. */
-static double floor_sigmas(const path_fit_t *fit, const path_reading_t *reading)
+static double floor_sigmas(const path_fit_t *fit, size_t i)
 {
-    return (fit->survey.floor_dbm - path_fit_expect(fit, reading, true)) / fit->rms_db;
+    return (fit->survey.floor_dbm - fit->expected_dbm[i]) / fit->rms_db;
 }
 
 /* Chance that the floor is why it is missing, and not bad luck. */
@@ -105,11 +104,14 @@ static double chance_of_floor(const path_fit_t *fit, double z)
     return by_floor / (by_floor + fit->lost_share);
 }
 
+/* What lies so far below the floor that it counts less than this tells nothing by being missing. */
+static const double least_weight = 1e-6;
+
 /* Newton's step for the chance to be below the floor, as a reading: where it should have been, and
  * how much it counts. */
-static pull_t pull_of_missing(const path_fit_t *fit, const path_reading_t *reading)
+static pull_t pull_of_missing(const path_fit_t *fit, size_t i)
 {
-    double z = floor_sigmas(fit, reading), h = hazard(z), bend = fmax(0.0, h * (h + z));
+    double z = floor_sigmas(fit, i), h = normal_hazard(z), bend = fmax(0.0, h * (h + z));
     pull_t pull = {0.0, chance_of_floor(fit, z) * bend / (fit->rms_db * fit->rms_db)};
     pull.value = bend > 1e-9 ? -fit->rms_db / (h + z) : 0.0;
     return pull;
@@ -146,7 +148,7 @@ static double share_alike(const path_fit_t *fit, square_t *squares)
     for (size_t i = 0u; i < fit->survey.count; i++) {
         const path_reading_t *reading = &fit->survey.readings[i];
         if (!isnan(reading->dbm)) {
-            double residual = residual_of(fit, reading);
+            double residual = residual_of(fit, i);
             double drawn = residual * sqrt(tail_weight(fit, residual, fit->sigma_db));
             square_t *square = &squares[reading->square];
             square->heard++;
@@ -175,7 +177,8 @@ static double next_scale(const path_fit_t *fit, double sigma_db, bool is_own)
     for (size_t i = 0u; i < fit->survey.count; i++) {
         const path_reading_t *reading = &fit->survey.readings[i];
         if (!isnan(reading->dbm)) {
-            double residual = reading->dbm - path_fit_expect(fit, reading, is_own);
+            double residual =
+                is_own ? residual_of(fit, i) : reading->dbm - path_fit_expect(fit, reading, false);
             sum += tail_weight(fit, residual, sigma_db) * residual * residual;
             heard += 1.0;
         }
@@ -190,7 +193,7 @@ static double drawn_rms(const path_fit_t *fit)
     for (size_t i = 0u; i < fit->survey.count; i++) {
         const path_reading_t *reading = &fit->survey.readings[i];
         if (!isnan(reading->dbm)) {
-            double drawn = fmin(fabs(residual_of(fit, reading)), 4.0 * fit->sigma_db);
+            double drawn = fmin(fabs(residual_of(fit, i)), 4.0 * fit->sigma_db);
             sum += drawn * drawn;
             heard += 1.0;
         }
@@ -203,7 +206,7 @@ static double share_lost(const path_fit_t *fit)
     double lost = 1.0, due = 20.0; /* one of twenty before anything was heard */
     for (size_t i = 0u; i < fit->survey.count; i++) {
         const path_reading_t *reading = &fit->survey.readings[i];
-        double z = floor_sigmas(fit, reading), luck = 1.0 - chance_of_floor(fit, z);
+        double z = floor_sigmas(fit, i), luck = 1.0 - chance_of_floor(fit, z);
         bool is_missing = isnan(reading->dbm);
         lost += is_missing ? luck : 0.0;
         due += is_missing ? luck : 1.0;
@@ -232,13 +235,15 @@ static void add_reading(const path_fit_t *fit, arrow_t *arrow, size_t i)
                                          is_least ? -reading->walls : 0.0, -reading->body_share};
     pull_t pull;
     if (isnan(reading->dbm)) {
-        pull = pull_of_missing(fit, reading);
+        pull = pull_of_missing(fit, i);
     } else {
-        pull.value = residual_of(fit, reading);
+        pull.value = residual_of(fit, i);
         pull.weight = tail_weight(fit, pull.value, fit->sigma_db) / (fit->sigma_db * fit->sigma_db);
     }
-    pull.value += path_fit_expect(fit, reading, true) + fit->survey.multipath_db +
-                  (is_least ? 0.0 : fit->most_db);
+    if (pull.weight < least_weight) {
+        return;
+    }
+    pull.value += fit->expected_dbm[i] + fit->survey.multipath_db + (is_least ? 0.0 : fit->most_db);
     arrow_add(arrow, reading->ap, common, common, pull.value, fit->weight[i] * pull.weight);
 }
 
@@ -262,7 +267,7 @@ static double scatter_factor(const path_fit_t *fit)
     double dof = fit->survey.tail_dof, squared = 0.0, slope = 0.0, weight = 0.0, all = 0.0;
     for (size_t i = 0u; i < fit->survey.count; i++) {
         if (!isnan(fit->survey.readings[i].dbm)) {
-            double u = residual_of(fit, &fit->survey.readings[i]) / fit->sigma_db;
+            double u = residual_of(fit, i) / fit->sigma_db;
             double w = (dof + 1.0) / (dof + u * u), g = fit->weight[i];
             squared += g * w * w * u * u;
             slope += g * w * (dof - u * u) / (dof + u * u);
@@ -313,6 +318,7 @@ static double iterate(path_fit_t *fit, square_t *squares)
 {
     arrow_t arrow;
     double change = 0.0;
+    expect_all(fit);
     learn_noise(fit, squares);
     arrow_begin(&arrow, fit->survey.ap_count);
     add_known(fit, &arrow);
@@ -334,8 +340,8 @@ static double log_likelihood(const path_fit_t *fit)
     double sum = 0.0, dof = fit->survey.tail_dof;
     for (size_t i = 0u; i < fit->survey.count; i++) {
         const path_reading_t *reading = &fit->survey.readings[i];
-        double u = residual_of(fit, reading) / fit->sigma_db;
-        double below = normal_below(floor_sigmas(fit, reading));
+        double u = residual_of(fit, i) / fit->sigma_db;
+        double below = normal_below(floor_sigmas(fit, i));
         sum += fit->weight[i] *
                (isnan(reading->dbm)
                     ? log(fit->lost_share + (1.0 - fit->lost_share) * below)
@@ -352,7 +358,7 @@ static void describe_aps(path_fit_t *fit)
     for (size_t i = 0u; i < fit->survey.count; i++) {
         const path_reading_t *reading = &fit->survey.readings[i];
         path_ap_t *ap = &fit->aps[reading->ap];
-        double residual = isnan(reading->dbm) ? 0.0 : residual_of(fit, reading);
+        double residual = isnan(reading->dbm) ? 0.0 : residual_of(fit, i);
         ap->mean_db += residual;
         ap->sigma_db += residual * residual;
     }
@@ -371,6 +377,7 @@ void path_fit_run(path_fit_t *fit)
     for (int i = 0; i < ITERATIONS && change > done; i++) {
         change = iterate(fit, squares);
     }
+    expect_all(fit);
     learn_noise(fit, squares);
     for (int i = 0; i < SCALE_ITERATIONS; i++) {
         fit->sigma_db = next_scale(fit, fit->sigma_db, true);
@@ -385,5 +392,6 @@ void path_fit_free(path_fit_t *fit)
 {
     free(fit->aps);
     free(fit->weight);
+    free(fit->expected_dbm);
     memset(fit, 0, sizeof *fit);
 }

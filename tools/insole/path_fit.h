@@ -81,6 +81,7 @@ typedef struct {
     double lost_share;       /**< of the readings that should have been heard */
     double log_likelihood;   /**< counted by squares */
     double *weight;          /**< work space: of each reading by its square */
+    double *expected_dbm;    /**< work space: of each reading, of its own access point */
 } path_fit_t;
 
 /** Nothing is fixed; values are those of `survey->start`. The survey's readings must last. */
