@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "memory.h"
+#include "number.h"
 #include "statistics.h"
 
 /* An access point heard less often in a session may be gone for other reasons than distance. */
@@ -169,7 +170,7 @@ static void add_scans(path_readings_t *path, const survey_t *survey)
     for (size_t s = 0u; s < survey->scan_count; s++) {
         const survey_scan_t *scan = &survey->scans[s];
         survey_reading_t missing = survey->readings[scan->first];
-        missing.dbm = NAN;
+        missing.dbm = NUMBER_UNKNOWN;
         memset(is_heard, 0, path->ap_count * sizeof *is_heard);
         add_heard(path, survey, scan, is_heard);
         for (uint32_t a = 0u; a < path->ap_count; a++) {
