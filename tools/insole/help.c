@@ -7,7 +7,7 @@
 
 static const command_t *const commands[] = {&command_replay,   &command_score,
 #ifdef INSOLE_HOST_HAS_SIMULATOR
-                                            &command_simulate,
+                                            &command_simulate, &command_reproduce,
 #endif
                                             &command_compare,  &command_calibrate, &command_config,
                                             &command_plan,     &command_pack,      NULL};

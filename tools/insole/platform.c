@@ -49,13 +49,47 @@ static bool ends_with(const char *name, const char *ending)
     return length > tail && strcmp(name + length - tail, ending) == 0;
 }
 
-static char *join(const char *folder, const char *name)
+char *platform_join(const char *folder, const char *name)
 {
     size_t size = strlen(folder) + strlen(name) + 2u;
     char *path = memory_new(size, 1u);
     bool has_slash = folder[0] != '\0' && folder[strlen(folder) - 1u] == '/';
     snprintf(path, size, "%s%s%s", folder, has_slash ? "" : "/", name);
     return path;
+}
+
+bool platform_make_folder(const char *path)
+{
+    return mkdir(path, 0777) == 0 || platform_is_folder(path);
+}
+
+char *platform_scratch_folder(void)
+{
+    const char *parent = getenv("TMPDIR");
+    char *path =
+        platform_join(parent != NULL && parent[0] != '\0' ? parent : "/tmp", "insole-XXXXXX");
+    if (mkdtemp(path) == NULL) {
+        free(path);
+        return NULL;
+    }
+    return path;
+}
+
+void platform_remove_folder(const char *path)
+{
+    DIR *open_folder = opendir(path);
+    if (open_folder == NULL) {
+        return;
+    }
+    for (struct dirent *entry; (entry = readdir(open_folder)) != NULL;) {
+        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0) {
+            char *file = platform_join(path, entry->d_name);
+            (void)unlink(file);
+            free(file);
+        }
+    }
+    closedir(open_folder);
+    (void)rmdir(path);
 }
 
 static int compare_paths(const void *a, const void *b)
@@ -75,7 +109,7 @@ bool platform_list(const char *folder, const char *ending, char ***paths, size_t
     for (struct dirent *entry; (entry = readdir(open_folder)) != NULL;) {
         if (entry->d_name[0] != '.' && ends_with(entry->d_name, ending)) {
             *paths = memory_room(*paths, &room, *count + 1u, sizeof **paths);
-            (*paths)[(*count)++] = join(folder, entry->d_name);
+            (*paths)[(*count)++] = platform_join(folder, entry->d_name);
         }
     }
     closedir(open_folder);

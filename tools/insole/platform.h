@@ -26,6 +26,19 @@ bool platform_list(const char *folder, const char *ending, char ***paths, size_t
 
 void platform_free_paths(char **paths, size_t count);
 
+/** A path with a folder in front. @return to be freed with free() */
+char *platform_join(const char *folder, const char *name);
+
+/** Makes a folder where there is none. @return false when it is not there then */
+bool platform_make_folder(const char *path);
+
+/** A new folder for files that nobody keeps. @return its path, to be freed with free(); NULL: it
+ *  could not be made */
+char *platform_scratch_folder(void);
+
+/** Removes a folder and the files in it. */
+void platform_remove_folder(const char *path);
+
 /** Bytes of a regular file; 0 for anything else. */
 unsigned long long platform_file_size(const char *path);
 

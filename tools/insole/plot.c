@@ -18,6 +18,11 @@ static const double visible_pixels = 0.7;
 static const char *const track_colours[PLOT_COLOURS] = {"#2166ac", "#d6604d", "#1b7837",
                                                         "#7b3294", "#b8860b", "#4d4d4d"};
 
+const char *plot_colour(size_t number)
+{
+    return track_colours[number % PLOT_COLOURS];
+}
+
 /* Of the stretches whose state is not track. */
 static const char *const state_colours[] = {"#bdbdbd", "#9e9e9e", "", "#ff9f1c", "#e31a1c"};
 
@@ -136,7 +141,7 @@ static void draw_tracks(const page_t *page)
         snprintf(style, sizeof style,
                  "stroke=\"%s\" stroke-width=\"2\" stroke-opacity=\"0.85\" "
                  "stroke-linejoin=\"round\"",
-                 track_colours[i % PLOT_COLOURS]);
+                 plot_colour(i));
         draw_whole(page, &page->plot->tracks[i], style);
     }
 }
@@ -231,8 +236,7 @@ static void legend_tracks(page_t *page)
 {
     char style[STYLE_ROOM];
     for (size_t i = 0u; i < page->plot->track_count; i++) {
-        snprintf(style, sizeof style, "stroke=\"%s\" stroke-width=\"2.4\"",
-                 track_colours[i % PLOT_COLOURS]);
+        snprintf(style, sizeof style, "stroke=\"%s\" stroke-width=\"2.4\"", plot_colour(i));
         legend_line(page, style, page->plot->names[i]);
     }
 }

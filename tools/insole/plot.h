@@ -27,6 +27,9 @@ typedef struct {
     const track_t *cloud; /**< NULL: none; only places */
 } plot_t;
 
+/** Colour of a track among several, by its number. */
+const char *plot_colour(size_t number);
+
 /** @param path a file, or `-` for standard output */
 bool plot_write(const plot_t *plot, const char *path, failure_t *failure);
 

@@ -85,8 +85,7 @@ double plot_y(const plot_frame_t *frame, double y_m)
     return frame->bottom - (y_m - frame->area.y_low) * frame->pixels_per_m;
 }
 
-/* The largest of 1, 2 or 5 times a power of ten that is at most `limit`. */
-static double round_length(double limit)
+double plot_round(double limit)
 {
     double power = pow(10.0, floor(log10(limit)));
     double share = limit / power;
@@ -120,7 +119,7 @@ static void draw_y_ticks(FILE *file, const plot_frame_t *frame, double step)
 static void draw_scale_bar(FILE *file, const plot_frame_t *frame)
 {
     char number[NUMBER_ROOM], label[NUMBER_ROOM + 4];
-    double length_m = round_length(120.0 / frame->pixels_per_m);
+    double length_m = plot_round(120.0 / frame->pixels_per_m);
     double right = frame->right, y = frame->bottom + 42.0;
     double left = right - length_m * frame->pixels_per_m;
     const char *style = "stroke=\"#333\" stroke-width=\"2\"";
@@ -134,7 +133,7 @@ static void draw_scale_bar(FILE *file, const plot_frame_t *frame)
 
 void plot_frame_draw(FILE *file, const plot_frame_t *frame)
 {
-    double step = round_length(130.0 / frame->pixels_per_m);
+    double step = plot_round(130.0 / frame->pixels_per_m);
     double middle_y = 0.5 * (frame->top + frame->bottom);
     svg_rectangle(file, 0.0, 0.0, frame->width, frame->height, "fill=\"#ffffff\"");
     draw_x_ticks(file, frame, step);

@@ -35,6 +35,9 @@ plot_frame_t plot_frame(plot_area_t area);
 double plot_x(const plot_frame_t *frame, double x_m);
 double plot_y(const plot_frame_t *frame, double y_m);
 
+/** The largest of 1, 2 or 5 times a power of ten that is at most `limit`. */
+double plot_round(double limit);
+
 /** Grid, ticks with their numbers, names of the axes, scale bar. */
 void plot_frame_draw(FILE *file, const plot_frame_t *frame);
 

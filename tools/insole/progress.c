@@ -31,14 +31,21 @@ static void draw(progress_t *progress, int percent)
     progress->is_shown = true;
 }
 
-void progress_show(progress_t *progress, unsigned long long done, unsigned long long all)
+void progress_step(progress_t *progress, unsigned long long done, unsigned long long all)
 {
-    if (!progress->is_wanted || all == 0u || ++progress->calls % CALLS_BETWEEN_LOOKS != 0u) {
+    if (!progress->is_wanted || all == 0u) {
         return;
     }
     int percent = done < all ? (int)(100u * done / all) : 100;
     if (percent != progress->percent && platform_seconds() - progress->begin_s > patience_s) {
         draw(progress, percent);
+    }
+}
+
+void progress_show(progress_t *progress, unsigned long long done, unsigned long long all)
+{
+    if (++progress->calls % CALLS_BETWEEN_LOOKS == 0u) {
+        progress_step(progress, done, all);
     }
 }
 

@@ -22,6 +22,9 @@ void progress_begin(progress_t *progress);
 /** Cheap: may be called for every record. @param all 0: not known */
 void progress_show(progress_t *progress, unsigned long long done, unsigned long long all);
 
+/** The same for long steps: every call looks. */
+void progress_step(progress_t *progress, unsigned long long done, unsigned long long all);
+
 /** Wipes the bar. */
 void progress_end(progress_t *progress);
 

@@ -285,6 +285,15 @@ static void score_end(const pair_t *last, const track_t *track, const track_t *t
         score->distance_m > 0.0 ? 100.0 * score->end_2d_m / score->distance_m : NUMBER_UNKNOWN;
 }
 
+void score_errors(const track_t *track, const track_t *truth, double *errors_m)
+{
+    pair_t *pairs = associate(track, truth);
+    for (size_t i = 0u; i < truth->count; i++) {
+        errors_m[i] = plane_error(&pairs[i]);
+    }
+    free(pairs);
+}
+
 void score_compute(const track_t *track, const track_t *truth, alignment_t alignment,
                    score_t *score)
 {

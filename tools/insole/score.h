@@ -56,6 +56,10 @@ const char *score_alignment_text(alignment_t alignment);
 void score_compute(const track_t *track, const track_t *truth, alignment_t alignment,
                    score_t *score);
 
+/** The error in the plane at each point of truth, the track as it is.
+ *  @param[out] errors_m as many as there are points */
+void score_errors(const track_t *track, const track_t *truth, double *errors_m);
+
 /** The row as it is after the motion; the covariance turns along. */
 void score_move(const motion_t *motion, track_row_t *row);
 

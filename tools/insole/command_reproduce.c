@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT */
+#include "command.h"
+
+#ifdef INSOLE_HOST_HAS_SIMULATOR /* builds without the simulator do not offer the command */
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "memory.h"
+#include "output.h"
+#include "reproduce.h"
+
+enum { RUNS = 20 };
+
+static const reproduce_paper_t *const papers[] = {&reproduce_two_order, NULL};
+
+static const reproduce_paper_t *find_paper(const char *name, failure_t *failure)
+{
+    for (const reproduce_paper_t *const *paper = papers; *paper != NULL; paper++) {
+        if (strcmp((*paper)->name, name) == 0) {
+            return *paper;
+        }
+    }
+    failure_usage(failure, "insole reproduce: unknown paper %.40s: expected", name);
+    for (const reproduce_paper_t *const *paper = papers; *paper != NULL; paper++) {
+        failure_add(failure, "%s %s", paper == papers ? "" : ",", (*paper)->name);
+    }
+    return NULL;
+}
+
+static bool parse(const arguments_t *arguments, reproduce_request_t *request, failure_t *failure)
+{
+    int64_t runs = RUNS, seed = 1;
+    const char *maps = options_value(arguments, "maps");
+    if (!options_whole(arguments, "runs", 1, REPRODUCE_RUNS_MAX, &runs, failure) ||
+        !options_whole(arguments, "seed", 0, INT64_MAX - REPRODUCE_RUNS_MAX, &seed, failure)) {
+        return false;
+    }
+    request->maps = maps != NULL ? maps : "maps";
+    request->out = options_value(arguments, "out");
+    request->runs = (int)runs;
+    request->seed = (uint64_t)seed;
+    return true;
+}
+
+static bool measure(const arguments_t *arguments, const reproduce_paper_t *paper,
+                    const reproduce_request_t *request, failure_t *failure)
+{
+    reproduction_t *reproduction = memory_new(1u, sizeof *reproduction);
+    bool is_good = reproduce_begin(reproduction, paper, request, failure) &&
+                   reproduce_measure(reproduction, failure);
+    if (is_good && options_has(arguments, "json")) {
+        reproduce_json(reproduction, stdout);
+    } else if (is_good) {
+        reproduce_print(reproduction, stdout);
+    }
+    reproduce_free(reproduction);
+    free(reproduction);
+    return is_good && output_flush(stdout, "-", failure);
+}
+
+static bool run(const arguments_t *arguments, failure_t *failure)
+{
+    reproduce_request_t request;
+    if (arguments->operand_count != 1u) {
+        return failure_usage(failure, "insole reproduce: expected the name of one paper");
+    }
+    const reproduce_paper_t *paper = find_paper(arguments->operands[0], failure);
+    return paper != NULL && parse(arguments, &request, failure) &&
+           measure(arguments, paper, &request, failure);
+}
+
+static const option_t options[] = {
+    {"runs", "N", "how many walks (default 20)"},
+    {"seed", "N", "of the first walk, and of its particles; the others follow (default 1)"},
+    {"maps", "DIR", "where the scenarios are (default maps, as in the source tree)"},
+    {"out", "DIR", "draw the paper's figures into it, as SVG; made if it is not there"},
+    {"json", NULL, "as JSON, with the figures of every walk"},
+    {NULL, NULL, NULL}};
+
+const command_t command_reproduce = {
+    "reproduce",
+    "TwoOrder",
+    "a paper's table again: what is measured beside what is printed",
+    "Simulates walks with the paper's setup and replays each by the paper's own parts and by\n"
+    "our defaults. The table has the errors, and the printed ones beside them.\n"
+    "\n"
+    "  insole reproduce TwoOrder\n"
+    "  insole reproduce TwoOrder --runs 100 --out figures\n",
+    options,
+    run};
+
+#endif

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: MIT */
+#include "reproduce.h"
+
+#include <math.h>
+
+#include "json.h"
+#include "number.h"
+
+reproduce_figures_t reproduce_means(const reproduction_t *reproduction, int row)
+{
+    const reproduce_figures_t *walks = reproduction->results[row].walks;
+    double share = 1.0 / reproduction->request.runs;
+    reproduce_figures_t means = {0.0, 0.0, 0.0, 0.0};
+    for (int i = 0; i < reproduction->request.runs; i++) {
+        means.max_m += share * walks[i].max_m;
+        means.min_m += share * walks[i].min_m;
+        means.mean_m += share * walks[i].mean_m;
+        means.rms_m += share * walks[i].rms_m;
+    }
+    return means;
+}
+
+/* The lowest and the highest mean error of a walk. */
+static void find_span(const reproduction_t *reproduction, int row, double *low_m, double *high_m)
+{
+    const reproduce_figures_t *walks = reproduction->results[row].walks;
+    *low_m = *high_m = walks[0].mean_m;
+    for (int i = 1; i < reproduction->request.runs; i++) {
+        *low_m = fmin(*low_m, walks[i].mean_m);
+        *high_m = fmax(*high_m, walks[i].mean_m);
+    }
+}
+
+/* By how much a row's mean error lies below its rival's; negative: above. */
+static double share_below(const reproduction_t *reproduction, const reproduce_claim_t *claim)
+{
+    double own_m = reproduce_means(reproduction, claim->row).mean_m;
+    double rival_m = claim->is_against_print
+                         ? reproduction->paper->rows[claim->rival].printed.mean_m
+                         : reproduce_means(reproduction, claim->rival).mean_m;
+    return 1.0 - own_m / rival_m;
+}
+
+/* ---- text ------------------------------------------------------------------------------- */
+
+static void print_cell(FILE *file, double value)
+{
+    char number[NUMBER_ROOM];
+    fprintf(file, " %6s", isnan(value) ? "-" : number_fixed(number, value, 2));
+}
+
+static void print_figures(FILE *file, const reproduce_figures_t *figures)
+{
+    print_cell(file, figures->max_m);
+    print_cell(file, figures->min_m);
+    print_cell(file, figures->mean_m);
+    print_cell(file, figures->rms_m);
+}
+
+static void print_row(FILE *file, const reproduction_t *reproduction, int row)
+{
+    const reproduce_row_t *asked = &reproduction->paper->rows[row];
+    reproduce_figures_t means = reproduce_means(reproduction, row);
+    double low_m, high_m;
+    find_span(reproduction, row, &low_m, &high_m);
+    fprintf(file, "%-22s", asked->label);
+    print_figures(file, &means);
+    print_cell(file, low_m);
+    print_cell(file, high_m);
+    if (!isnan(asked->printed.mean_m)) {
+        fputs("  ", file);
+        print_figures(file, &asked->printed);
+    }
+    fputc('\n', file);
+}
+
+static void print_claim(FILE *file, const reproduction_t *reproduction,
+                        const reproduce_claim_t *claim)
+{
+    const reproduce_paper_t *paper = reproduction->paper;
+    char number[NUMBER_ROOM];
+    double below = share_below(reproduction, claim);
+    fprintf(file, "%s against %s%s: mean %s %% %s (%s)\n", paper->rows[claim->row].label,
+            paper->rows[claim->rival].label, claim->is_against_print ? " as printed" : "",
+            number_fixed(number, 100.0 * fabs(below), 1), below < 0.0 ? "higher" : "lower",
+            claim->claim);
+}
+
+static void print_head(FILE *file, const reproduction_t *reproduction)
+{
+    const reproduce_paper_t *paper = reproduction->paper;
+    unsigned long long first = reproduction->request.seed;
+    fprintf(file, "[%s] %s, %d simulated walk%s of %s, seed %llu", paper->name, paper->table,
+            reproduction->request.runs, reproduction->request.runs == 1 ? "" : "s", paper->scenario,
+            first);
+    if (reproduction->request.runs > 1) {
+        fprintf(file, " to %llu", first + (unsigned long long)reproduction->request.runs - 1u);
+    }
+    fputs("\nError in m. Measured: each figure is the mean of the walks'; low and high are the\n"
+          "least and the largest mean of a walk. Printed: one walk.\n\n",
+          file);
+    fprintf(file, "%-22s %41s  %27s\n", "", "measured", "printed");
+    fprintf(file, "%-22s %6s %6s %6s %6s %6s %6s  %6s %6s %6s %6s\n", "method", "max", "min",
+            "mean", "rms", "low", "high", "max", "min", "mean", "rms");
+}
+
+void reproduce_print(const reproduction_t *reproduction, FILE *file)
+{
+    const reproduce_paper_t *paper = reproduction->paper;
+    print_head(file, reproduction);
+    fputs("by the paper's parts\n", file);
+    for (int row = 0; row < paper->row_count; row++) {
+        if (row > 0 && paper->rows[row].is_ours && !paper->rows[row - 1].is_ours) {
+            fputs("by our defaults, on the same logs\n", file);
+        }
+        print_row(file, reproduction, row);
+    }
+    fputc('\n', file);
+    for (int i = 0; i < paper->claim_count; i++) {
+        print_claim(file, reproduction, &paper->claims[i]);
+    }
+    fputc('\n', file);
+    for (const char *const *note = paper->notes; *note != NULL; note++) {
+        fprintf(file, "%s\n", *note);
+    }
+}
+
+/* ---- json ------------------------------------------------------------------------------- */
+
+static void json_figures(json_t *json, const char *key, const reproduce_figures_t *figures)
+{
+    json_object(json, key);
+    json_number(json, "max_m", figures->max_m, 4);
+    json_number(json, "min_m", figures->min_m, 4);
+    json_number(json, "mean_m", figures->mean_m, 4);
+    json_number(json, "rms_m", figures->rms_m, 4);
+    json_end(json);
+}
+
+static void json_row(json_t *json, const reproduction_t *reproduction, int row)
+{
+    const reproduce_row_t *asked = &reproduction->paper->rows[row];
+    reproduce_figures_t means = reproduce_means(reproduction, row);
+    json_object(json, NULL);
+    json_text(json, "label", asked->label);
+    json_text(json, "method", method_name(asked->method));
+    json_text(json, "settings", asked->is_ours ? "ours" : "paper");
+    json_figures(json, "measured", &means);
+    json_figures(json, "printed", &asked->printed);
+    json_array(json, "walks");
+    for (int i = 0; i < reproduction->request.runs; i++) {
+        json_figures(json, NULL, &reproduction->results[row].walks[i]);
+    }
+    json_end(json);
+    json_end(json);
+}
+
+static void json_claim(json_t *json, const reproduction_t *reproduction,
+                       const reproduce_claim_t *claim)
+{
+    const reproduce_paper_t *paper = reproduction->paper;
+    json_object(json, NULL);
+    json_text(json, "row", paper->rows[claim->row].label);
+    json_text(json, "rival", paper->rows[claim->rival].label);
+    json_flag(json, "rival_as_printed", claim->is_against_print);
+    json_number(json, "share_lower", share_below(reproduction, claim), 4);
+    json_text(json, "claim", claim->claim);
+    json_end(json);
+}
+
+void reproduce_json(const reproduction_t *reproduction, FILE *file)
+{
+    const reproduce_paper_t *paper = reproduction->paper;
+    json_t json;
+    json_begin(&json, file);
+    json_object(&json, NULL);
+    json_text(&json, "paper", paper->name);
+    json_text(&json, "table", paper->table);
+    json_text(&json, "scenario", paper->scenario);
+    json_whole(&json, "runs", reproduction->request.runs);
+    json_whole(&json, "seed", (long long)reproduction->request.seed);
+    json_array(&json, "rows");
+    for (int row = 0; row < paper->row_count; row++) {
+        json_row(&json, reproduction, row);
+    }
+    json_end(&json);
+    json_array(&json, "claims");
+    for (int i = 0; i < paper->claim_count; i++) {
+        json_claim(&json, reproduction, &paper->claims[i]);
+    }
+    json_end(&json);
+    json_end(&json);
+}
