@@ -527,6 +527,27 @@ if grep -q '^  simulate ' out; then
     run replay simulated
     status_is 0
     has err '(as it is)'
+
+    refuses 2 'insole reproduce: expected the name of one paper' reproduce
+    refuses 2 'insole reproduce: expected the name of one paper' reproduce TwoOrder TwoOrder
+    refuses 2 'insole reproduce: unknown paper Twoorder: expected TwoOrder' reproduce Twoorder
+    refuses 2 'insole reproduce: --runs 0: expected a whole number from 1 to 1000' \
+        reproduce TwoOrder --runs 0
+    run reproduce TwoOrder --maps absent --runs 1
+    status_is 1; empty out
+    has err 'absent/student_centre/two_order.scenario'
+    has err '--maps DIR tells where the maps are'
+    run reproduce TwoOrder --maps "$tree/maps" --runs 1 --seed 5 --out figures
+    status_is 0; empty err
+    has out 'TwoOrder] table 3, 1 simulated walk of student_centre/two_order.scenario, seed 5'
+    has out 'two-order against INS+EKF: mean '
+    for figure in 5 6a 6b 7; do
+        [ -s "figures/figure$figure.svg" ] || fail "no figure$figure.svg"
+    done
+    run reproduce TwoOrder --maps "$tree/maps" --runs 1 --json
+    status_is 0; empty err
+    has out '"label": "two-order"'
+    has out '"share_lower": '
 fi
 
 [ "$failures" -eq 0 ] && echo 'cli: fine'

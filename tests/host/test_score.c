@@ -92,6 +92,22 @@ START_TEST(a_score_by_hand)
 }
 END_TEST
 
+START_TEST(errors_one_by_one)
+{
+    double errors[3] = {-1.0, -1.0, -1.0};
+    add(&track, 0.0, 0.0, 0.0, 0.0);
+    add(&track, 1.0, 1.0, 0.0, 0.0);
+    add(&truth, 0.5, 0.5, 2.0, 0.0);
+    add(&truth, 1.0, 4.0, 4.0, 0.0);
+    add(&truth, 9.0, 1.0, 0.0, 0.0); /* 8 s after the track */
+    score_errors(&track, &truth, errors);
+    ASSERT_NEAR(errors[0], 2.0, 1e-12, "m");
+    ASSERT_NEAR(errors[1], 5.0, 1e-12, "m");
+    ASSERT_NEAR(errors[2], SCORE_MISSING_M, 1e-12, "m");
+    clear();
+}
+END_TEST
+
 START_TEST(points_without_a_place_count_thirty_metres)
 {
     add(&track, 1.0, 0.0, 0.0, 0.0);
@@ -236,8 +252,8 @@ START_TEST(the_alignment_is_the_best_there_is)
             for (size_t i = 0u; i < track.count; i++) {
                 track_row_t row = track.rows[i];
                 score_move(&other, &row);
-                squares += pow(row.x_m - truth.rows[i].x_m, 2.0) +
-                           pow(row.y_m - truth.rows[i].y_m, 2.0);
+                squares +=
+                    pow(row.x_m - truth.rows[i].x_m, 2.0) + pow(row.y_m - truth.rows[i].y_m, 2.0);
             }
             rms = sqrt(squares / (double)track.count);
             ASSERT_AT_LEAST(rms, best, "m");
@@ -412,6 +428,7 @@ Suite *insole_suite(void)
     suite_add(suite, "loop", a_loop_is_scored_by_what_fails_to_close);
     suite_add(suite, "two points", a_walk_between_two_points_is_turned_towards_the_end);
     suite_add(suite, "nobody", nobody_walked);
+    suite_add(suite, "errors", errors_one_by_one);
     suite_add(suite, "covariance", a_moved_row_takes_its_covariance_along);
     suite_add(suite, "text", a_score_is_printed);
     suite_add(suite, "json", a_score_is_told_as_json);

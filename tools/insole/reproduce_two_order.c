@@ -34,8 +34,9 @@ static const char *const settings[] = {"zero_velocity.detector=two-step",
                                        NULL};
 
 static const char *const notes[] = {
-    "INS+EKF, PDR-only, ins and best are told the true start; two-order its heading, and where",
-    "the walk begins by its first Wi-Fi fix (table 2), the inertial position the true place.",
+    "All but Wi-Fi only are told the true start. Of two-order the inertial position alone knows "
+    "its",
+    "place: the particles begin at the Wi-Fi fix, as table 2 has it.",
     "The sensor's noise was set once, by other seeds, so that PDR-only comes within 20 % of",
     "what is printed. The paper prints no row of Wi-Fi alone.", NULL};
 
@@ -123,7 +124,7 @@ static bool draw_stances(const reproduction_t *reproduction, failure_t *failure)
     bool is_good = read_turn_rates(reproduction, &stances.lines[0], failure) &&
                    reproduce_replay(reproduction, &rows[INS], &sink, failure);
     const chart_t chart = {"Zero velocity in a walk, found by the two-step detector",
-                           "As figure 5 of [TwoOrder]",
+                           "As figure 5 of [TwoOrder], some strides of the first walk",
                            "t [s]",
                            "rad/s; 1: still",
                            shown_from_s,
@@ -190,14 +191,21 @@ static bool draw_walk(const reproduction_t *reproduction, failure_t *failure)
 
 /* ---- figure 7: how many errors are how small --------------------------------------------- */
 
-/* Percent of a row's errors that are smaller, at each percent. */
+/* What is shown of them. */
+static const double shown_error_m = 12.0;
+enum { SHARES = 1000 };
+
+/* Which share of a row's errors is smaller, in percent. */
 static void add_shares(chart_line_t *line, const reproduce_result_t *result)
 {
     double *sorted_m = memory_new(result->error_count, sizeof *sorted_m);
     memcpy(sorted_m, result->errors_m, result->error_count * sizeof *sorted_m);
     (void)statistics_percentile(sorted_m, result->error_count, 0.0);
-    for (size_t percent = 0u; percent <= 100u; percent++) {
-        chart_add(line, sorted_m[percent * (result->error_count - 1u) / 100u], (double)percent);
+    for (size_t i = 0u; i <= SHARES; i++) {
+        double error_m = sorted_m[i * (result->error_count - 1u) / SHARES];
+        if (error_m <= shown_error_m) {
+            chart_add(line, error_m, 100.0 / SHARES * (double)i);
+        }
     }
     free(sorted_m);
 }
@@ -217,7 +225,7 @@ static bool draw_all(const reproduction_t *reproduction, failure_t *failure)
                            "error [m]",
                            "errors below it [%]",
                            0.0,
-                           12.0,
+                           shown_error_m,
                            0.0,
                            100.0,
                            lines,
