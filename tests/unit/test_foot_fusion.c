@@ -65,6 +65,9 @@ START_TEST(an_exact_start_is_kept)
         ASSERT_AT_MOST(mean_error(0.0, HUGE_VAL), 0.3, "m");
         ck_assert_uint_eq(lies(2.0), 0);
         ck_assert_uint_ge(count_state(INSOLE_FIX_TRACK), fix_count / 4u);
+        for (uint32_t i = 100; i < 300; i++) { /* standing where he was told to be */
+            ck_assert_int_eq(fixes[i].state, INSOLE_FIX_TRACK);
+        }
         ck_assert_uint_eq(fusion.counts.starts, 1);
         ck_assert_uint_eq(fusion.counts.refused, 0);
         ck_assert_uint_ge(fusion.particles.counts.scans, 35);
@@ -174,7 +177,12 @@ END_TEST
 
 static const struct {
     bool scans, plan;
-} worlds[] = {{false, false}, {true, false}, {true, true}};
+    double lag_s;
+} worlds[] = {{false, false, 0.0},
+              {false, false, 4.0},
+              {true, false, 0.0},
+              {true, true, 0.0},
+              {true, true, 4.0}};
 
 /* A start record in the middle of the walk, where nobody would have thought: from its time on it
  * holds, and what was thought before is forgotten. */
@@ -186,6 +194,7 @@ START_TEST(a_second_start_is_believed)
     }
     fusion_case_t c = usual_case();
     c.scans = worlds[_i].scans;
+    c.config.lag_s = (insole_real_t)worlds[_i].lag_s;
     insole_start_t here = start_at(24.0, 0.0, 0.0, 0.3);
     c.start = start_at(0.0, -16.0, 12.0, 0.3);
     set_up(&c);

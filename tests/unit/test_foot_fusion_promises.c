@@ -183,6 +183,55 @@ START_TEST(work_may_be_spread_over_the_stride)
 }
 END_TEST
 
+/* Strides that end while the particles are busy are told as one: their turns add up to the same. */
+START_TEST(no_turn_is_lost_while_busy)
+{
+    double turned[2] = {0.0, 0.0};
+    uint32_t strides[2];
+    walk_round(1u);
+    for (int busy = 0; busy < 2; busy++) {
+        fusion_case_t c = usual_case();
+        c.scans = false;
+        c.slice = busy ? 2 : WHOLE;
+        set_up(&c);
+        uint32_t told = 0;
+        for (uint32_t i = 0; i < sample_count; i++) {
+            run(&c, &fusion, i, i + 1u);
+            if (fusion.particles.counts.strides > told) {
+                told = fusion.particles.counts.strides;
+                turned[busy] += (double)fusion.news.turn_rad;
+            }
+        }
+        turned[busy] += (double)fusion.stride_turn_rad;
+        strides[busy] = told;
+    }
+    ck_assert_uint_lt(2u * strides[1], strides[0]);
+    ASSERT_AT_LEAST(turned[0], 3.5, "rad");
+    ASSERT_NEAR(turned[1], turned[0], 1e-4, "rad");
+}
+END_TEST
+
+/* At the end no late fix leaves before all that is known has been worked in. */
+START_TEST(the_last_fixes_wait_for_the_work)
+{
+    insole_fix_t fix;
+    walk_round(1u);
+    fusion_case_t c = usual_case();
+    c.config.lag_s = 4;
+    set_up(&c);
+    run(&c, &fusion, 0u, 3000u);
+    c.slice = 0;
+    run(&c, &fusion, 3000u, 3300u); /* a stride comes, and nobody works it in */
+    ck_assert(fusion.working);
+    uint32_t count = fix_count;
+    ck_assert_int_eq(insole_foot_fusion_finish(&fusion), INSOLE_OK);
+    ck_assert_int_eq(insole_foot_fusion_next(&fusion, &fix), INSOLE_ERR_STATE);
+    c.slice = WHOLE;
+    finish(&c, &fusion);
+    ck_assert_uint_ge(fix_count, count + 400u);
+}
+END_TEST
+
 START_TEST(finish_gives_one_fix_per_sample_and_only_once)
 {
     insole_fix_t fix;
@@ -446,6 +495,8 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "copy", a_copy_goes_on_bit_for_bit, 10);
     suite_add_loop(suite, "starved", starved_it_never_blocks, sizeof slow / sizeof slow[0]);
     suite_add(suite, "spread work", work_may_be_spread_over_the_stride);
+    suite_add(suite, "turns", no_turn_is_lost_while_busy);
+    suite_add(suite, "last", the_last_fixes_wait_for_the_work);
     suite_add_loop(suite, "finish", finish_gives_one_fix_per_sample_and_only_once, 2);
     suite_add_loop(suite, "nothing", nothing_in_nothing_out, 6);
     suite_add(suite, "align", before_the_foot_is_aligned);
