@@ -379,6 +379,29 @@ START_TEST(at_its_settings_a_scan_says_half)
 }
 END_TEST
 
+/* Where no plan tells of walls a scan says less, and contradicts less. */
+START_TEST(without_a_plan_a_scan_says_less)
+{
+    begin_hall();
+    insole_evidence_t news = scan_news(20.0, 15.0);
+    radio.building.plan = NULL;
+    start(N, 20.0, 15.0, 0.0, 0.0);
+    begin(&news);
+    ASSERT_NEAR(filter.weighing.scan_power, config.blind_power, 1e-3, "");
+    start(N, 20.0, 15.0, 1e4, 3.2);
+    begin(&news);
+    ASSERT_NEAR(filter.weighing.scan_power, config.blind_search_power, 1e-3, "");
+    work(WHOLE);
+    filter.field.elsewhere_likelier = 3;
+    ASSERT_NEAR(insole_particle_filter_misfit(&filter), 3.0 * (double)config.blind_power, 1e-6, "");
+    radio.building.plan = &radio.drawing.plan;
+    news = position_news(20.0, 15.0, 1.0);
+    begin(&news);
+    ASSERT_NEAR(insole_particle_filter_misfit(&filter), 3.0, 0.0, "");
+    ASSERT_NEAR(insole_particle_filter_misfit(NULL), 0.0, 0.0, "");
+}
+END_TEST
+
 /* The stride told with the scan has made the cloud wider. */
 START_TEST(a_stride_makes_it_say_more)
 {
@@ -451,6 +474,7 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "wide", a_scan_says_more_to_a_wide_cloud,
                    sizeof widths / sizeof widths[0]);
     suite_add(suite, "half", at_its_settings_a_scan_says_half);
+    suite_add(suite, "no plan", without_a_plan_a_scan_says_less);
     suite_add(suite, "stride", a_stride_makes_it_say_more);
     suite_add(suite, "power", the_power_is_that_of_the_likelihood);
     suite_add(suite, "only scans", only_scans_have_the_power);
