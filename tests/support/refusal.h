@@ -32,7 +32,7 @@
     } while (0)
 
 #define SETTING_NAN_REAL(setting, judge)                                                           \
-    ck_assert_int_eq(((setting) = NAN, (judge)), INSOLE_ERR_VALUE)
+    ck_assert_int_eq(((setting) = (insole_real_t)NAN, (judge)), INSOLE_ERR_VALUE)
 #define SETTING_NAN_INT(setting, judge)
 #define SETTING_NAN_CHOICE(setting, judge)
 
@@ -43,7 +43,7 @@
         INSOLE_CONFIG_TYPE_##kind setting_ = config.name;                                          \
         config.name = INSOLE_CONFIG_LITERAL_##kind(low) - 1;                                       \
         ck_assert_msg(judge() == INSOLE_ERR_VALUE, "%s below its range", #name);                   \
-        config.name = (high > 0 ? 2 : 1) * INSOLE_CONFIG_LITERAL_##kind(high) + 1;                                  \
+        config.name = (high > 0 ? 2 : 1) * INSOLE_CONFIG_LITERAL_##kind(high) + 1;                 \
         ck_assert_msg(judge() == INSOLE_ERR_VALUE, "%s above its range", #name);                   \
         SETTING_NAN_##kind(config.name, judge());                                                  \
         config.name = INSOLE_CONFIG_LITERAL_##kind(low);                                           \

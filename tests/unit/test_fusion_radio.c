@@ -77,6 +77,14 @@ static void tell(double x, double y)
     ck_assert_int_eq(insole_evidence_check(&news), INSOLE_OK);
 }
 
+static void check_same_place(const insole_anchor_fix_t *a, const insole_anchor_fix_t *b)
+{
+    ASSERT_NEAR(a->x_m, b->x_m, 0.0, "m");
+    ASSERT_NEAR(a->y_m, b->y_m, 0.0, "m");
+    ck_assert_mem_eq(&a->P, &b->P, sizeof a->P);
+    ck_assert_uint_eq(a->used, b->used);
+}
+
 /* ---- scans ---- */
 
 /* First for the foot, then for the stride; told with the way walked since it was heard. */
@@ -117,7 +125,7 @@ START_TEST(the_place_by_radio_is_that_of_the_scan)
     ck_assert_int_eq(insole_rss_fix_solve(&rss_fix, &world.propagation, world.aps, APS,
                                           radio.scan.readings, APS, &fix),
                      INSOLE_OK);
-    ck_assert_mem_eq(&radio.fix, &fix, sizeof fix);
+    check_same_place(&radio.fix, &fix);
     ASSERT_NEAR(fix.x_m, 20.0, 3.0 * sqrt((double)fix.P.xx), "m");
     ASSERT_NEAR(fix.y_m, 15.0, 3.0 * sqrt((double)fix.P.yy), "m");
     ASSERT_AT_MOST(fix.P.xx, 36.0, "m2");
@@ -351,12 +359,12 @@ START_TEST(ranges_give_a_place)
     place(3 * SECOND, 1.0, 1.0);
     ck_assert_int_eq(insole_range_fix_age(&range_fix, &aged, 2), INSOLE_OK);
     insole_range_fix_solve(&range_fix, world.aps, APS, ranges, 4, &aged, &fix);
-    ck_assert_mem_eq(&radio.fix, &fix, sizeof fix);
+    check_same_place(&radio.fix, &fix);
     tell(0.0, 0.0);
     range(2 * SECOND, 5.0, 5.0, 4);
     place(4 * SECOND, 1.0, 1.0);
     insole_range_fix_solve(&range_fix, world.aps, APS, ranges, 4, NULL, &fix);
-    ck_assert_mem_eq(&radio.fix, &fix, sizeof fix);
+    check_same_place(&radio.fix, &fix);
 }
 END_TEST
 
