@@ -28,6 +28,40 @@ static inline bool insole_spot_is_finite(insole_spot_t spot)
     return insole_is_finite(spot.x_m) && insole_is_finite(spot.y_m);
 }
 
+static inline insole_spot_t insole_spot(insole_real_t x_m, insole_real_t y_m)
+{
+    insole_spot_t spot = {x_m, y_m};
+    return spot;
+}
+
+static inline insole_spot_t insole_spot_add(insole_spot_t a, insole_spot_t b)
+{
+    return insole_spot(a.x_m + b.x_m, a.y_m + b.y_m);
+}
+
+static inline insole_spot_t insole_spot_sub(insole_spot_t a, insole_spot_t b)
+{
+    return insole_spot(a.x_m - b.x_m, a.y_m - b.y_m);
+}
+
+/** a + s b */
+static inline insole_spot_t insole_spot_add_scaled(insole_spot_t a, insole_real_t s,
+                                                   insole_spot_t b)
+{
+    return insole_spot(a.x_m + s * b.x_m, a.y_m + s * b.y_m);
+}
+
+static inline insole_real_t insole_spot_dot(insole_spot_t a, insole_spot_t b)
+{
+    return a.x_m * b.x_m + a.y_m * b.y_m;
+}
+
+/** Length of a way. */
+static inline insole_real_t insole_spot_norm(insole_spot_t a)
+{
+    return insole_sqrt(insole_spot_dot(a, a));
+}
+
 /** A way on the plane, turned; longer or shorter when `turn` is not of unit length. */
 static inline insole_spot_t insole_turn_way(insole_turn_t turn, insole_spot_t way)
 {
