@@ -26,6 +26,7 @@
 #include "insole/base/vec3.h"
 #include "insole/fuse/cloud_source.h"
 #include "insole/fuse/evidence.h"
+#include "insole/fuse/ml_shift.h"
 #include "insole/fuse/particle_cloud.h"
 #include "insole/fuse/particle_config.h"
 #include "insole/fuse/particle_filter.h"

@@ -4,11 +4,6 @@
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
-static const insole_real_t MOST_OFFSET_RAD = INSOLE_R(1.0e3);
-
-/* A position farther off has no centimetres left. */
-static const insole_real_t FARTHEST_M = INSOLE_R(1.0e6);
-
 /* A fix so many gates off tells nothing, and squares of more leave a float. */
 static const insole_real_t FARTHEST_OFF = INSOLE_R(1.0e9);
 
@@ -19,11 +14,6 @@ static insole_status_t refuse(insole_step_fusion_t *fusion, insole_status_t why)
 {
     fusion->refused++;
     return why;
-}
-
-static insole_sym2_t bound(insole_sym2_t P)
-{
-    return insole_sym2_bound(P, INSOLE_SPOT_LEAST_M2, INSOLE_SPOT_MOST_M2);
 }
 
 insole_status_t insole_step_fusion_init(insole_step_fusion_t *fusion,
@@ -47,13 +37,13 @@ insole_status_t insole_step_fusion_start(insole_step_fusion_t *fusion, insole_sp
     if (!fusion) {
         return INSOLE_ERR_NULL;
     }
-    if (!insole_spot_is_usable(spot, cov_m2) || !(insole_abs(offset_rad) <= MOST_OFFSET_RAD)) {
+    if (!insole_spot_is_start(spot, cov_m2, offset_rad)) {
         return refuse(fusion, INSOLE_ERR_VALUE);
     }
     fusion->started = true;
     fusion->has_fix = false;
     fusion->spot = spot;
-    fusion->P = bound(cov_m2);
+    fusion->P = insole_spot_cov(cov_m2);
     fusion->offset_rad = insole_wrap_pi(offset_rad);
     fusion->gated_in_row = 0u;
     fusion->steps = 0u;
@@ -82,11 +72,6 @@ static insole_pace_t pace_on_map(const insole_step_fusion_t *fusion, const insol
     return in_m;
 }
 
-static bool is_in_reach(insole_spot_t spot)
-{
-    return insole_abs(spot.x_m) <= FARTHEST_M && insole_abs(spot.y_m) <= FARTHEST_M;
-}
-
 insole_status_t insole_step_fusion_step(insole_step_fusion_t *fusion, insole_step_method_t *method,
                                         const insole_pace_t *pace)
 {
@@ -102,11 +87,12 @@ insole_status_t insole_step_fusion_step(insole_step_fusion_t *fusion, insole_ste
     insole_pace_t in_m = pace_on_map(fusion, pace);
     insole_step_way_t way = method ? method(&in_m) : plain_way(&in_m, fusion->config.sigma_way_m);
     insole_spot_t spot = insole_spot_add(fusion->spot, way.mean); /* [PhoneEKF (31)-(32)] */
-    if (!is_in_reach(spot)) {
+    if (!insole_spot_is_in_reach(spot)) {
         return refuse(fusion, INSOLE_ERR_VALUE);
     }
-    fusion->spot = spot;                                  /* [PhoneUKF (38)-(39)] */
-    fusion->P = bound(insole_sym2_add(fusion->P, way.Q)); /* [PhoneEKF (33)], [PhoneUKF (40)] */
+    fusion->spot = spot; /* [PhoneUKF (38)-(39)] */
+    fusion->P =
+        insole_spot_cov(insole_sym2_add(fusion->P, way.Q)); /* [PhoneEKF (33)], [PhoneUKF (40)] */
     fusion->steps++;
     return INSOLE_OK;
 }
@@ -122,14 +108,14 @@ static void correct(insole_step_fusion_t *fusion, insole_spot_t innovation, inso
     insole_spot_t ky = insole_sym2_mul(W, insole_spot(P.xy, P.yy));
     insole_spot_t shift = {insole_spot_dot(kx, innovation), insole_spot_dot(ky, innovation)};
     insole_spot_t spot = insole_spot_add(fusion->spot, shift);
-    if (!is_in_reach(spot)) {
+    if (!insole_spot_is_in_reach(spot)) {
         return;
     }
     fusion->spot = spot; /* [PhoneEKF (39)], [PhoneUKF (46)] */
     insole_spot_t x_left = {ONE - kx.x_m, -kx.y_m}, y_left = {-ky.x_m, ONE - ky.y_m};
-    fusion->P =
-        bound(insole_sym2_add(/* [PhoneEKF (40)], [PhoneUKF (47)] */
-                              insole_sym2_map(x_left, y_left, P), insole_sym2_map(kx, ky, R)));
+    fusion->P = insole_spot_cov(
+        insole_sym2_add(/* [PhoneEKF (40)], [PhoneUKF (47)] */
+                        insole_sym2_map(x_left, y_left, P), insole_sym2_map(kx, ky, R)));
 }
 
 /* The inverse W of the innovation's covariance, and the normalised innovation squared. */
@@ -153,7 +139,7 @@ static bool hold_off(insole_step_fusion_t *fusion, insole_spot_t innovation, ins
     fusion->gated++;
     fusion->gated_in_row++;
     if (fusion->gated_in_row >= (uint32_t)c->patience) {
-        fusion->P = bound(insole_sym2_scale(fusion->P, c->widen));
+        fusion->P = insole_spot_cov(insole_sym2_scale(fusion->P, c->widen));
         fusion->widened++;
         if (weigh(fusion->P, *R, innovation, W, &nis) && nis <= c->gate) {
             fusion->gated_in_row = 0u;

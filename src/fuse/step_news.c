@@ -32,10 +32,15 @@ static bool is_near(insole_spot_t spot)
     return insole_abs(spot.x_m) <= INSOLE_SPOT_MOST_M && insole_abs(spot.y_m) <= INSOLE_SPOT_MOST_M;
 }
 
-bool insole_spot_is_usable(insole_spot_t spot, insole_sym2_t cov_m2)
+static bool is_usable(insole_spot_t spot, insole_sym2_t cov_m2)
 {
     return is_near(spot) &&
            insole_sym2_is_between(cov_m2, INSOLE_SPOT_LEAST_M2, INSOLE_SPOT_MOST_M2);
+}
+
+bool insole_spot_is_start(insole_spot_t spot, insole_sym2_t cov_m2, insole_real_t offset_rad)
+{
+    return is_usable(spot, cov_m2) && insole_abs(offset_rad) <= MOST_ANGLE_RAD;
 }
 
 insole_status_t insole_spot_fix_check(const insole_spot_fix_t *fix)
@@ -43,7 +48,7 @@ insole_status_t insole_spot_fix_check(const insole_spot_fix_t *fix)
     if (!fix) {
         return INSOLE_ERR_NULL;
     }
-    bool usable = insole_spot_is_usable(fix->spot, fix->cov_m2) && is_near(fix->since);
+    bool usable = is_usable(fix->spot, fix->cov_m2) && is_near(fix->since);
     return usable ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 

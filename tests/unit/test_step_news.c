@@ -65,8 +65,29 @@ START_TEST(fixes_are_checked)
         fix = good;
         fix.cov_m2 = none[i];
         ck_assert_int_eq(insole_spot_fix_check(&fix), INSOLE_ERR_VALUE);
-        ck_assert(!insole_spot_is_usable(fix.spot, none[i]));
+        ck_assert(!insole_spot_is_start(fix.spot, none[i], 0));
     }
+}
+END_TEST
+
+START_TEST(starts_are_checked)
+{
+    const insole_sym2_t circle = insole_sym2_circle(1);
+    const insole_real_t bad[] = {BAD, INSOLE_R(1001.0), INSOLE_R(1.1e5)};
+    ck_assert(insole_spot_is_start(insole_spot(3, -4), circle, -1000));
+    for (int i = 0; i < 4; i++) {
+        ck_assert(!insole_spot_is_start(insole_spot(3, -4), circle, bad[i]));
+        insole_real_t far = bad[i == 3 ? 4 : i];
+        ck_assert(!insole_spot_is_start(insole_spot(far, 0), circle, 0));
+        ck_assert(!insole_spot_is_start(insole_spot(0, far), circle, 0));
+        ck_assert(!insole_spot_is_in_reach(insole_spot(10 * far, 0)));
+        ck_assert(!insole_spot_is_in_reach(insole_spot(0, 10 * far)));
+    }
+    ck_assert(insole_spot_is_in_reach(insole_spot(INSOLE_R(1e6), -INSOLE_R(1e6))));
+    insole_sym2_t P = insole_spot_cov(insole_sym2_circle(0));
+    ASSERT_NEAR(P.xx, INSOLE_SPOT_LEAST_M2, 0.0, "m^2");
+    P = insole_spot_cov(insole_sym2_circle(INSOLE_R(1e13)));
+    ASSERT_NEAR(P.yy / INSOLE_SPOT_MOST_M2, 1.0, 4.0 * EPS, "");
 }
 END_TEST
 
@@ -158,6 +179,7 @@ Suite *insole_suite(void)
     Suite *suite = suite_create("step_news");
     suite_add(suite, "paces", paces_are_checked);
     suite_add(suite, "fixes", fixes_are_checked);
+    suite_add(suite, "starts", starts_are_checked);
     suite_add(suite, "way", a_way_is_length_and_direction);
     suite_add(suite, "step", a_step_becomes_a_pace_with_the_variance_of_its_attitude);
     suite_add(suite, "refused", what_is_no_step_is_no_pace);

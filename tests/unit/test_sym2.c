@@ -116,6 +116,25 @@ START_TEST(bounds_hold_for_all_and_leave_the_rest_alone)
 }
 END_TEST
 
+/* By all directions. */
+START_TEST(the_larger_eigenvalue_is_the_variance_of_the_worst_direction)
+{
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 4u);
+    worst_t off = {0.0, 0.0};
+    for (int i = 0; i < 50; i++) {
+        insole_sym2_t A = sample_sym2(&rng, 3);
+        double most = 0.0;
+        for (int k = 0; k < 3600; k++) {
+            point_t u = {cos(k * 3.14159265358979 / 3600.0), sin(k * 3.14159265358979 / 3600.0)};
+            most = fmax(most, plane_form(plane_of(A), u));
+        }
+        worst_note(&off, fabs((double)insole_sym2_largest(A) / most - 1.0), i);
+    }
+    ASSERT_WORST(off, 1.0e-6, "of it");
+}
+END_TEST
+
 /* Ways and places, on which all this stands. */
 START_TEST(spots_add_up)
 {
@@ -140,6 +159,7 @@ Suite *insole_suite(void)
     suite_add(suite, "inverse", an_inverse_undoes);
     suite_add_loop(suite, "none", what_is_no_covariance_has_no_inverse, NO_COVARIANCES);
     suite_add(suite, "bounds", bounds_hold_for_all_and_leave_the_rest_alone);
+    suite_add(suite, "largest", the_larger_eigenvalue_is_the_variance_of_the_worst_direction);
     suite_add(suite, "spots", spots_add_up);
     return suite;
 }

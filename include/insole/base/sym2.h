@@ -66,6 +66,13 @@ static inline insole_sym2_t insole_sym2_map(insole_spot_t row_x, insole_spot_t r
                        insole_sym2_form(a, row_y));
 }
 
+/** The larger eigenvalue: variance in the worst direction. */
+static inline insole_real_t insole_sym2_largest(insole_sym2_t a)
+{
+    insole_real_t half = INSOLE_R(0.5) * (a.xx - a.yy);
+    return INSOLE_R(0.5) * (a.xx + a.yy) + insole_sqrt(half * half + a.xy * a.xy);
+}
+
 /** Inverse of a positive definite matrix, by pivots.
  *  @return false, and `inverse` untouched, when it is not positive definite or has no finite
  *          inverse */

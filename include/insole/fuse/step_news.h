@@ -51,8 +51,20 @@ insole_status_t insole_pace_check(const insole_pace_t *pace);
  *          covariance that is none, or has a variance not in 1e-6 .. 1e12 m^2 */
 insole_status_t insole_spot_fix_check(const insole_spot_fix_t *fix);
 
-/** The same of a position by itself. */
-bool insole_spot_is_usable(insole_spot_t spot, insole_sym2_t cov_m2);
+/** Whether a fusion can start with this: the same limits, and an offset within 1000 rad. */
+bool insole_spot_is_start(insole_spot_t spot, insole_sym2_t cov_m2, insole_real_t offset_rad);
+
+/** Whether a position that is answered still has centimetres: within 1000 km. */
+static inline bool insole_spot_is_in_reach(insole_spot_t spot)
+{
+    return insole_abs(spot.x_m) <= INSOLE_R(1.0e6) && insole_abs(spot.y_m) <= INSOLE_R(1.0e6);
+}
+
+/** A covariance kept within the limits above. */
+static inline insole_sym2_t insole_spot_cov(insole_sym2_t P)
+{
+    return insole_sym2_bound(P, INSOLE_SPOT_LEAST_M2, INSOLE_SPOT_MOST_M2);
+}
 
 /** The way of a pace, turned by `offset_rad` from n to m. */
 insole_spot_t insole_pace_way(const insole_pace_t *pace, insole_real_t offset_rad);
