@@ -24,6 +24,8 @@
 #include "insole/base/types.h"
 #include "insole/base/unscented.h"
 #include "insole/base/vec3.h"
+#include "insole/fuse/auto_start.h"
+#include "insole/fuse/circle_start.h"
 #include "insole/fuse/cloud_source.h"
 #include "insole/fuse/evidence.h"
 #include "insole/fuse/ml_shift.h"
