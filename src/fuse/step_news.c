@@ -55,6 +55,7 @@ insole_status_t insole_spot_fix_check(const insole_spot_fix_t *fix)
 insole_spot_t insole_pace_way(const insole_pace_t *pace, insole_real_t offset_rad)
 {
     insole_turn_t ahead = insole_turn(pace->heading_rad + offset_rad);
+    /* [PhoneEKF (1)], [PhoneUKF (4)] */
     return insole_spot(pace->length_m * ahead.cos, pace->length_m * ahead.sin);
 }
 

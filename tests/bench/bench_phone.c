@@ -70,11 +70,136 @@ static void call_insole_heading(uint32_t call)
     bench_result[1] = heading.variance_rad2;
 }
 
+/* A walk in the fusions: a pace each call, a fix each call. */
+
+static insole_pace_t pace;
+static insole_spot_fix_t fix;
+static insole_step_fusion_t fusion;
+static insole_ml_shift_t ml;
+static insole_auto_start_t start;
+
+static void make_news(uint32_t call)
+{
+    insole_pace_t next = {bench_between(INSOLE_R(0.6), INSOLE_R(0.8)),
+                          bench_between(INSOLE_R(-3.0), INSOLE_R(3.0)), INSOLE_R(0.01),
+                          INSOLE_R(0.02)};
+    insole_vec3_t at = bench_vec3_between(INSOLE_R(-5.0), INSOLE_R(5.0));
+    pace = next;
+    fix.t_us = (uint64_t)(call + 1u) * 2000000u;
+    fix.spot = insole_spot(at.x, at.y);
+    fix.cov_m2 = insole_sym2(INSOLE_R(9.0), at.z, INSOLE_R(6.0));
+    fix.since = insole_pace_way(&pace, INSOLE_R(0.0));
+}
+
+static void begin_fusion(void)
+{
+    insole_spot_t origin = {INSOLE_R(0.0), INSOLE_R(0.0)};
+    insole_step_fusion_init(&fusion, &insole_step_fusion_defaults);
+    insole_step_fusion_start(&fusion, origin, insole_sym2_circle(INSOLE_R(4.0)), INSOLE_R(0.5));
+}
+
+static void take_fusion(void)
+{
+    bench_take_vec3(0u, insole_vec3(fusion.spot.x_m, fusion.spot.y_m, fusion.nis));
+    bench_take_vec3(3u, insole_vec3(fusion.P.xx, fusion.P.xy, fusion.P.yy));
+}
+
+static void call_insole_step_fusion_step_ekf(uint32_t call)
+{
+    (void)call;
+    insole_step_fusion_step(&fusion, insole_step_ekf, &pace);
+    take_fusion();
+}
+
+static void call_insole_step_fusion_step_ukf(uint32_t call)
+{
+    (void)call;
+    insole_step_fusion_step(&fusion, insole_step_ukf, &pace);
+    take_fusion();
+}
+
+static void call_insole_step_fusion_fix(uint32_t call)
+{
+    (void)call;
+    insole_step_fusion_fix(&fusion, &fix);
+    take_fusion();
+}
+
+static void begin_ml_shift(void)
+{
+    insole_spot_t origin = {INSOLE_R(0.0), INSOLE_R(0.0)};
+    insole_ml_shift_init(&ml, &insole_ml_shift_defaults);
+    insole_ml_shift_start(&ml, origin, insole_sym2_circle(INSOLE_R(4.0)), INSOLE_R(0.5));
+}
+
+static void call_insole_ml_shift_fix(uint32_t call)
+{
+    (void)call;
+    insole_ml_shift_fix(&ml, &fix);
+    bench_take_vec3(0u, insole_vec3(ml.spot.x_m, ml.spot.y_m, ml.P.xx));
+}
+
+/* Begun anew, so that each call is the last of five fixes. */
+static void make_start(int32_t method)
+{
+    insole_auto_start_config_t config = insole_auto_start_defaults;
+    config.method = method;
+    insole_auto_start_init(&start, &config);
+    for (uint32_t i = 0u; i < 5u; i++) {
+        make_news(i);
+        insole_auto_start_step(&start, &pace);
+        if (i < 4u) {
+            insole_auto_start_fix(&start, &fix);
+        }
+    }
+}
+
+static void make_moved(uint32_t call)
+{
+    (void)call;
+    make_start(INSOLE_AUTO_START_MOVED);
+}
+
+static void make_circles(uint32_t call)
+{
+    (void)call;
+    make_start(INSOLE_AUTO_START_CIRCLES);
+}
+
+static void take_start(void)
+{
+    insole_auto_start_answer_t answer;
+    insole_auto_start_fix(&start, &fix);
+    insole_auto_start_answer(&start, &answer);
+    bench_take_vec3(0u, insole_vec3(answer.spot.x_m, answer.spot.y_m, answer.offset_rad));
+    bench_take_vec3(3u, insole_vec3(answer.cov_m2.xx, answer.cov_m2.yy, answer.var_offset_rad2));
+}
+
+static void call_insole_auto_start_moved(uint32_t call)
+{
+    (void)call;
+    take_start();
+}
+
+static void call_insole_auto_start_circles(uint32_t call)
+{
+    (void)call;
+    take_start();
+}
+
 static const bench_case_t cases[] = {
     {"insole_attitude_push_gyro", WALK, begin_phone, make_sample, call_insole_attitude_push_gyro},
     {"insole_attitude_push_ekf", WALK, begin_phone, make_sample, call_insole_attitude_push_ekf},
     {"insole_attitude_push_ukf", WALK, begin_phone, make_sample, call_insole_attitude_push_ukf},
     {"insole_heading", WALK, begin_phone, make_attitude, call_insole_heading},
+    {"insole_step_fusion_step_ekf", 200u, begin_fusion, make_news,
+     call_insole_step_fusion_step_ekf},
+    {"insole_step_fusion_step_ukf", 200u, begin_fusion, make_news,
+     call_insole_step_fusion_step_ukf},
+    {"insole_step_fusion_fix", 200u, begin_fusion, make_news, call_insole_step_fusion_fix},
+    {"insole_ml_shift_fix", 200u, begin_ml_shift, make_news, call_insole_ml_shift_fix},
+    {"insole_auto_start_moved", 50u, NULL, make_moved, call_insole_auto_start_moved},
+    {"insole_auto_start_circles", 50u, NULL, make_circles, call_insole_auto_start_circles},
 };
 
 const bench_table_t bench_phone = BENCH_TABLE(cases);
