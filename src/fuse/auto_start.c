@@ -169,8 +169,10 @@ static insole_real_t variance_of(insole_real_t concentration)
     return ONE / insole_max(concentration - INSOLE_R(0.75), least);
 }
 
-/* The offset by fixes and compass: product of two densities of von Mises. */
-static void find_offset(const insole_auto_start_t *start, insole_auto_start_answer_t *answer)
+/* The offset by fixes and compass: product of two densities of von Mises.
+ * @return its concentration */
+static insole_real_t find_offset(const insole_auto_start_t *start,
+                                 insole_auto_start_answer_t *answer)
 {
     const insole_auto_start_sums_t *s = &start->sums;
     insole_real_t per = ONE / s->ones;
@@ -179,21 +181,28 @@ static void find_offset(const insole_auto_start_t *start, insole_auto_start_answ
         s->across - per * (s->way.x_m * s->radio.y_m - s->way.y_m * s->radio.x_m);
     if (start->has_compass) {
         insole_turn_t compass = insole_turn(start->compass_rad);
-        insole_real_t concentration = ONE / insole_square(start->compass_sigma_rad);
-        along += concentration * compass.cos;
-        across += concentration * compass.sin;
+        insole_real_t told = ONE / insole_square(start->compass_sigma_rad);
+        along += told * compass.cos;
+        across += told * compass.sin;
     }
     answer->offset_rad = insole_atan2(across, along);
-    answer->var_offset_rad2 = variance_of(insole_sqrt(along * along + across * across));
+    insole_real_t concentration = insole_sqrt(along * along + across * across);
+    answer->var_offset_rad2 = variance_of(concentration);
+    return concentration;
 }
 
-/* Mean squares along and across a way whose direction has this variance; normal errors. */
-static insole_sym2_t cov_of_lever(insole_spot_t lever, insole_real_t variance,
+/* Mean squares along and across a way whose direction is known with this concentration c, of
+ * (1 - cos)^2 and sin^2. The mean of cos is A = I1(c) / I0(c), that of cos 2 is 1 - 2 A / c. The
+ * continued fraction of A, ended by a bound of I3 / I2, is never too large. */
+static insole_sym2_t cov_of_lever(insole_spot_t lever, insole_real_t concentration,
                                   insole_real_t sigma_scale)
 {
-    insole_real_t once = insole_exp(-HALF * variance), twice = insole_exp(-TWO * variance);
-    insole_real_t across = HALF * (ONE - twice);
-    insole_real_t along = insole_max(ONE - TWO * once + HALF * (ONE + twice), ZERO);
+    insole_real_t c = insole_min(concentration, INSOLE_R(1.0e9));
+    insole_real_t third = c / (INSOLE_R(2.5) + insole_sqrt(c * c + INSOLE_R(12.25)));
+    insole_real_t second = c / (INSOLE_R(4.0) + c * third);
+    insole_real_t first = ONE / (TWO + c * second); /* A / c */
+    insole_real_t along = insole_max(TWO - TWO * c * first - first, ZERO);
+    insole_real_t across = HALF * (ONE - insole_exp(-TWO * variance_of(c)));
     insole_spot_t side = {-lever.y_m, lever.x_m};
     insole_sym2_t cov = insole_sym2_circle(ZERO);
     cov = insole_sym2_add_outer(cov, along + insole_square(sigma_scale), lever);
@@ -201,7 +210,8 @@ static insole_sym2_t cov_of_lever(insole_spot_t lever, insole_real_t variance,
 }
 
 /* Now: from the middle of the fixes on, along the way walked since the middle of the ways. */
-static void find_place(const insole_auto_start_t *start, insole_auto_start_answer_t *answer)
+static void find_place(const insole_auto_start_t *start, insole_real_t concentration,
+                       insole_auto_start_answer_t *answer)
 {
     insole_real_t per = ONE / start->sums.ones;
     insole_spot_t none = {ZERO, ZERO};
@@ -210,7 +220,7 @@ static void find_place(const insole_auto_start_t *start, insole_auto_start_answe
     insole_spot_t way = insole_spot_sub(start->way, start->first_way);
     insole_turn_t turn = insole_turn(answer->offset_rad);
     insole_spot_t lever = insole_turn_way(turn, insole_spot_sub(way, middle_way));
-    insole_sym2_t cov = cov_of_lever(lever, answer->var_offset_rad2, start->config.sigma_scale);
+    insole_sym2_t cov = cov_of_lever(lever, concentration, start->config.sigma_scale);
     answer->spot = insole_spot_add(middle, lever);
     answer->begin = insole_spot_sub(middle, insole_turn_way(turn, middle_way));
     answer->cov_m2 = insole_sym2_add(cov, insole_sym2_circle(per + start->drift_m2));
@@ -244,8 +254,7 @@ insole_status_t insole_auto_start_answer(const insole_auto_start_t *start,
         return INSOLE_ERR_STATE;
     }
     const insole_auto_start_config_t *c = &start->config;
-    find_offset(start, answer);
-    find_place(start, answer);
+    find_place(start, find_offset(start, answer), answer);
     if (c->method == INSOLE_AUTO_START_CIRCLES) {
         take_circles(start, answer);
     }

@@ -10,9 +10,12 @@
 /* What squares of distances count beside the distances: enough to choose among equals, 1/m. */
 static const insole_real_t TIE = INSOLE_R(1.0e-3);
 
-/* The search about the best candidate: steps from metres to a millimetre, a few of each. */
-static const insole_real_t FIRST_STEP_M = INSOLE_R(2.0), LAST_STEP_M = INSOLE_R(0.001);
-enum { MOVES_PER_STEP = 12, REFINED = 3 };
+/* Circles whose middles are nearer meet nowhere, or everywhere. */
+static const insole_real_t SAME_M = INSOLE_R(0.001);
+
+/* The search about the best candidates: steps from metres to a millimetre, a few of each. */
+static const insole_real_t FIRST_STEP_M = INSOLE_R(2.0);
+enum { STEPS = 12, MOVES_PER_STEP = 12, REFINED = 3 };
 
 /* As the paper turns, and as fine as makes sense. */
 static const insole_real_t TURN_RAD = INSOLE_PI / INSOLE_R(36.0);
@@ -84,7 +87,7 @@ static void consider_meeting(const circles_t *circles, candidate_t best[REFINED]
     insole_real_t r = insole_spot_norm(p->way), s = insole_spot_norm(q->way);
     insole_spot_t between = insole_spot_sub(q->radio, p->radio);
     insole_real_t d = insole_spot_norm(between);
-    if (!(d > LAST_STEP_M)) {
+    if (!(d > SAME_M)) {
         return;
     }
     insole_real_t along = HALF * (d + (r + s) * (r - s) / d);
@@ -119,11 +122,13 @@ static bool move(const circles_t *circles, candidate_t *best, insole_real_t step
 
 static candidate_t refine(const circles_t *circles, candidate_t best)
 {
-    for (insole_real_t step_m = FIRST_STEP_M; step_m > LAST_STEP_M; step_m *= HALF) {
+    insole_real_t step_m = FIRST_STEP_M;
+    for (uint32_t k = 0u; k < STEPS; k++) {
         uint32_t moves = 0u;
         while (moves < MOVES_PER_STEP && move(circles, &best, step_m)) {
             moves++;
         }
+        step_m *= HALF;
     }
     return best;
 }

@@ -18,10 +18,10 @@ insole_step_way_t insole_step_ukf(const insole_pace_t *pace)
                                        ZERO, insole_sqrt(pace->var_length_m2)};
     insole_real_t points[POINTS * N], values[POINTS * N], mean[N], Q[N * N];
     insole_unscented_points(&ut, qd, root, points);
-    for (uint32_t i = 0u; i < POINTS; i++) {
-        insole_turn_t t = insole_turn(points[i * N]);
-        values[i * N] = points[i * N + 1u] * t.cos; /* [PhoneUKF (38)] */
-        values[i * N + 1u] = points[i * N + 1u] * t.sin;
+    for (uint32_t i = 0u; i < POINTS * N; i += N) {
+        insole_turn_t t = insole_turn(points[i]);
+        values[i] = points[i + 1u] * t.cos; /* [PhoneUKF (38)] */
+        values[i + 1u] = points[i + 1u] * t.sin;
     }
     insole_unscented_mean(&ut, N, values, mean);                    /* [PhoneUKF (39)] */
     insole_unscented_cov(&ut, N, values, mean, N, values, mean, Q); /* [PhoneUKF (40)] */

@@ -498,6 +498,39 @@ START_TEST(the_answer_walks_on_and_grows_less_sure)
 }
 END_TEST
 
+/* Ten metres walked since the only fix, in a direction of which the compass tells more or less: the
+ * mean squares by integration over its density, along and across. */
+START_TEST(a_way_in_a_vague_direction_is_vague)
+{
+    insole_auto_start_config_t config = insole_auto_start_defaults;
+    config.sigma_scale = 0;
+    for (double sigma = 0.05; sigma < 2.5; sigma *= 1.3) {
+        insole_auto_start_t start = begin_start(&config);
+        insole_spot_fix_t fix = {5u, {10, 20}, {9, 0, 9}, {0, 0}};
+        ck_assert_int_eq(insole_auto_start_fix(&start, &fix), INSOLE_OK);
+        ck_assert_int_eq(insole_auto_start_compass(&start, 0, (insole_real_t)sigma), INSOLE_OK);
+        insole_pace_t pace = {10, 0, 0, 0};
+        ck_assert_int_eq(insole_auto_start_step(&start, &pace), INSOLE_OK);
+        insole_auto_start_answer_t a = answer_of(&start);
+        double known = sigma * sigma < PI * PI / 3.0 ? 1.0 / (sigma * sigma) : 0.0;
+        double mass = 0.0, along = 0.0, across = 0.0;
+        for (int i = -20000; i < 20000; i++) {
+            double off = (i + 0.5) * PI / 20000.0, density = exp(known * (cos(off) - 1.0));
+            mass += density;
+            along += density * pow(1.0 - cos(off), 2.0);
+            across += density * pow(sin(off), 2.0);
+        }
+        along *= 100.0 / mass;
+        across *= 100.0 / mass;
+        double told_along = (double)a.cov_m2.xx - 21.25, told_across = (double)a.cov_m2.yy - 21.25;
+        ASSERT_AT_LEAST(told_along, along - 1.0e-3, "m^2");
+        ASSERT_AT_MOST(told_along, 1.05 * along + 0.2, "m^2"); /* 0.2 % of the way squared */
+        ASSERT_AT_LEAST(told_across, across - 1.0e-3, "m^2");
+        ASSERT_AT_MOST(told_across, 1.35 * across + 0.1, "m^2");
+    }
+}
+END_TEST
+
 START_TEST(many_fixes_and_any_input_stay_finite)
 {
     insole_auto_start_config_t config = insole_auto_start_defaults;
@@ -631,6 +664,7 @@ Suite *insole_suite(void)
     suite_add(suite, "ready", ready_is_as_the_settings_say);
     suite_add(suite, "late", a_late_fix_counts_where_it_was_heard);
     suite_add(suite, "on", the_answer_walks_on_and_grows_less_sure);
+    suite_add(suite, "vague", a_way_in_a_vague_direction_is_vague);
     suite_add_loop(suite, "finite", many_fixes_and_any_input_stay_finite, 4);
     suite_add(suite, "settings", settings_have_their_ranges);
     suite_add(suite, "refused", bad_input_is_refused);

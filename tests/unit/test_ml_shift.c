@@ -374,6 +374,41 @@ START_TEST(the_variance_of_strides_corrects_little)
 }
 END_TEST
 
+/* Errors of old position and fix in any two directions, as large as their sigmas: what comes out of
+ * the shift is no larger than the sigma told. */
+START_TEST(the_bound_holds_for_any_errors)
+{
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 8u);
+    insole_ml_shift_config_t config = insole_ml_shift_defaults;
+    config.radio = INSOLE_ML_SHIFT_TOLD;
+    config.pdr = INSOLE_ML_SHIFT_FIXED_PDR;
+    worst_t beyond = {0.0, 0.0};
+    double nearest = 1.0;
+    for (int i = 0; i < 300; i++) {
+        insole_ml_shift_t ml = begin(&config);
+        insole_sym2_t R = sample_sym2(&rng, i % 2 == 0 ? INSOLE_R(0.5) : 10);
+        insole_spot_fix_t fix = {1u, {0, 0}, R, {0, 0}};
+        take(&ml, &fix);
+        double own = 1.0 / pow((double)config.sigma_pdr_m, 2.0), most = 0.0;
+        plane_t W = plane_inverse(plane_of(R)), own_W = {own, 0.0, 0.0, own};
+        plane_t G = plane_mul(plane_inverse(plane_add(own_W, 1.0, W)), W);
+        double sigma_fix = sqrt((double)insole_sym2_largest(R));
+        for (int k = 0; k < 3600; k++) {
+            double a = k / 60 * 0.104719755, b = k % 60 * 0.104719755;
+            point_t e = {2.0 * cos(a), 2.0 * sin(a)};
+            point_t f = {sigma_fix * cos(b), sigma_fix * sin(b)};
+            point_t Ge = plane_apply(G, e), Gf = plane_apply(G, f);
+            most = fmax(most, hypot(e.x - Ge.x + Gf.x, e.y - Ge.y + Gf.y));
+        }
+        worst_note(&beyond, most / sqrt((double)ml.P.xx) - 1.0, i);
+        nearest = fmin(nearest, most / sqrt((double)ml.P.xx));
+    }
+    ASSERT_WORST(beyond, 1.0e-4, "of it");
+    ASSERT_AT_LEAST(nearest, 0.5, "of it");
+}
+END_TEST
+
 /* ---- for ever ------------------------------------------------------------------------------ */
 
 START_TEST(a_day_and_any_input_stay_finite)
@@ -517,6 +552,7 @@ Suite *insole_suite(void)
     suite_add(suite, "memory", what_was_long_ago_is_forgotten);
     suite_add(suite, "better", it_is_better_than_paces_and_than_fixes);
     suite_add(suite, "strides", the_variance_of_strides_corrects_little);
+    suite_add(suite, "bound", the_bound_holds_for_any_errors);
     suite_add_loop(suite, "day", a_day_and_any_input_stay_finite, 9);
     suite_add(suite, "equal", equal_fixes_and_a_standing_walker_are_no_trouble);
     suite_add(suite, "settings", settings_have_their_ranges);

@@ -235,6 +235,22 @@ START_TEST(one_far_fix_does_little)
 }
 END_TEST
 
+START_TEST(patience_ends_with_the_fix_that_the_settings_name)
+{
+    insole_step_fusion_config_t config = insole_step_fusion_defaults;
+    config.gated = INSOLE_STEP_PASS;
+    insole_step_fusion_t fusion = begin(&config);
+    for (int i = 1; i <= 6; i++) {
+        insole_spot_fix_t fix = fix_at((uint64_t)i, insole_spot(900, 0), 1);
+        take(&fusion, &fix);
+        int widened = i < 4 ? 0 : i - 3;
+        ck_assert_uint_eq(fusion.widened, (uint32_t)widened);
+        ASSERT_NEAR(fusion.P.xx, 4.0 * pow(4.0, widened), 0.001, "m^2");
+        ASSERT_NEAR(fusion.spot.x_m, 0.0, 0.0, "m");
+    }
+}
+END_TEST
+
 START_TEST(a_gate_that_is_off_lets_all_pass)
 {
     insole_step_fusion_config_t config = insole_step_fusion_defaults;
@@ -460,6 +476,7 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "constant", constant_covariances_take_no_notice_of_what_is_told, 3);
     suite_add_loop(suite, "honest", the_covariance_is_honest, 4);
     suite_add_loop(suite, "gate", one_far_fix_does_little, 2);
+    suite_add(suite, "patience", patience_ends_with_the_fix_that_the_settings_name);
     suite_add(suite, "open", a_gate_that_is_off_lets_all_pass);
     suite_add_loop(suite, "carried", who_was_carried_off_is_found_again, 8);
     suite_add(suite, "burst", a_burst_within_the_patience_is_weathered);
