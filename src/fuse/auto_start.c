@@ -191,18 +191,24 @@ static insole_real_t find_offset(const insole_auto_start_t *start,
     return concentration;
 }
 
+/* A / c with A = I1(c) / I0(c), the mean cosine of a density of von Mises: continued fraction, with
+ * a bound of I3 / I2 at its end. It is never too large with end = 3.5, never too small with 2.5. */
+static insole_real_t mean_cosine_per(insole_real_t c, insole_real_t end)
+{
+    insole_real_t third = c / (INSOLE_R(2.5) + insole_sqrt(c * c + end * end));
+    insole_real_t second = c / (INSOLE_R(4.0) + c * third);
+    return ONE / (TWO + c * second);
+}
+
 /* Mean squares along and across a way whose direction is known with this concentration c, of
- * (1 - cos)^2 and sin^2. The mean of cos is A = I1(c) / I0(c), that of cos 2 is 1 - 2 A / c. The
- * continued fraction of A, ended by a bound of I3 / I2, is never too large. */
+ * (1 - cos)^2 and sin^2; the mean of cos 2 is 1 - 2 A / c. */
 static insole_sym2_t cov_of_lever(insole_spot_t lever, insole_real_t concentration,
                                   insole_real_t sigma_scale)
 {
     insole_real_t c = insole_min(concentration, INSOLE_R(1.0e9));
-    insole_real_t third = c / (INSOLE_R(2.5) + insole_sqrt(c * c + INSOLE_R(12.25)));
-    insole_real_t second = c / (INSOLE_R(4.0) + c * third);
-    insole_real_t first = ONE / (TWO + c * second); /* A / c */
-    insole_real_t along = insole_max(TWO - TWO * c * first - first, ZERO);
-    insole_real_t across = HALF * (ONE - insole_exp(-TWO * variance_of(c)));
+    insole_real_t low = mean_cosine_per(c, INSOLE_R(3.5));
+    insole_real_t across = mean_cosine_per(c, INSOLE_R(2.5));
+    insole_real_t along = insole_max(TWO - TWO * c * low - low, ZERO);
     insole_spot_t side = {-lever.y_m, lever.x_m};
     insole_sym2_t cov = insole_sym2_circle(ZERO);
     cov = insole_sym2_add_outer(cov, along + insole_square(sigma_scale), lever);
