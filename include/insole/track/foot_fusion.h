@@ -142,8 +142,8 @@ insole_status_t insole_foot_fusion_next(insole_foot_fusion_t *fusion, insole_fix
  *  @return true while work is left */
 bool insole_foot_fusion_work(insole_foot_fusion_t *fusion, uint32_t particles);
 
-/** No more samples will come: all that is held leaves through insole_foot_fusion_next, in turns with
- *  insole_foot_fusion_work until neither gives more. */
+/** No more samples will come: all that is held leaves through insole_foot_fusion_next, in turns
+ * with insole_foot_fusion_work until neither gives more. */
 insole_status_t insole_foot_fusion_finish(insole_foot_fusion_t *fusion);
 
 #ifdef __cplusplus
