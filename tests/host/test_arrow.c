@@ -176,7 +176,7 @@ END_TEST
 START_TEST(numbers_that_are_none_have_no_solution)
 {
     arrow_t arrow;
-    const double row[ARROW_COMMON] = {1.0, NAN, 0.0, 0.0, 0.0}, own[ARROW_OWN] = {1.0, 0.0};
+    const double row[ARROW_COMMON] = {1.0, (double)NAN, 0.0, 0.0, 0.0}, own[ARROW_OWN] = {1.0, 0.0};
     arrow_begin(&arrow, 1u);
     for (int k = 0; k < ARROW_COMMON; k++) {
         arrow_prior(&arrow, k, 0.0, 1.0);

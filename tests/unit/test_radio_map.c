@@ -174,10 +174,10 @@ END_TEST
 
 START_TEST(no_covariance)
 {
-    static const double bad[][6] = {{-1, 0, 1, 3, 1, 0},         {1, 0, -1, 3, 1, 0},
-                                    {1, 2, 1, 3, 1, 0},          {1, 0, 1, -3, 1, 0},
-                                    {1, 0, 1, 3, -1, 0},         {0, 0, 0, 3, 0, 0},
-                                    {1, 0, 1, 3, 1, NAN},        {(double)INFINITY, 0, 1, 3, 1, 0},
+    static const double bad[][6] = {{-1, 0, 1, 3, 1, 0},          {1, 0, -1, 3, 1, 0},
+                                    {1, 2, 1, 3, 1, 0},           {1, 0, 1, -3, 1, 0},
+                                    {1, 0, 1, 3, -1, 0},          {0, 0, 0, 3, 0, 0},
+                                    {1, 0, 1, 3, 1, (double)NAN}, {(double)INFINITY, 0, 1, 3, 1, 0},
                                     {1, (double)NAN, 1, 3, 1, 0}};
     insole_trusted_area_t area = {{1, 2}, 3};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
