@@ -93,8 +93,9 @@ END_TEST
 
 START_TEST(what_does_not_fit_is_not_a_number)
 {
-    add(RECORD_RSS, 0, 0u, 1e300, 0.0);
-    add(RECORD_RANGE, 0, 0u, (double)INFINITY, 1e300);
+    const double too_large = 2.0 * (double)INSOLE_REAL_MAX;
+    add(RECORD_RSS, 0, 0u, too_large, 0.0);
+    add(RECORD_RANGE, 0, 0u, (double)INFINITY, too_large);
     ck_assert(isnan((double)group.rss[0].rss_dbm));
     ck_assert(isnan((double)group.range[0].range_m));
     ck_assert(isnan((double)group.range[0].sigma_m));

@@ -214,8 +214,9 @@ static void search(suspect_t *suspect, const path_place_t *low, const path_place
 {
     double width_m = high->x_m - low->x_m, height_m = high->y_m - low->y_m;
     double step_m = fmax(1.0, sqrt(width_m * height_m / MOST_PLACES));
-    for (double x_m = low->x_m; x_m <= high->x_m; x_m += step_m) {
-        for (double y_m = low->y_m; y_m <= high->y_m; y_m += step_m) {
+    for (int i = 0; i * step_m <= width_m; i++) {
+        for (int j = 0; j * step_m <= height_m; j++) {
+            double x_m = low->x_m + i * step_m, y_m = low->y_m + j * step_m;
             double error_db = error_at(suspect, x_m, y_m);
             if (error_db < best->error_db) {
                 best->error_db = error_db;

@@ -24,9 +24,10 @@ typedef struct {
 
 static plan_point_t place_of(const raster_t *raster, size_t i)
 {
+    size_t columns = raster->columns > 0u ? raster->columns : 1u;
     plan_point_t place = {
-        (double)raster->plan->origin_x_m + ((double)(i % raster->columns) + 0.5) * raster->step_m,
-        (double)raster->plan->origin_y_m + ((double)(i / raster->columns) + 0.5) * raster->step_m};
+        (double)raster->plan->origin_x_m + ((double)(i % columns) + 0.5) * raster->step_m,
+        (double)raster->plan->origin_y_m + ((double)(i / columns) + 0.5) * raster->step_m};
     return place;
 }
 

@@ -29,7 +29,7 @@ static uint32_t count_points(const plan_file_t *plan)
 
 static void add_line(drawing_t *drawing, const plan_line_t *line, insole_real_t wall_db)
 {
-    insole_real_t *xy_m = drawing->xy_m + 2u * drawing->points;
+    insole_real_t *xy_m = drawing->xy_m + (size_t)2u * drawing->points;
     for (size_t i = 0u; i < line->count; i++) {
         xy_m[2u * i] = (insole_real_t)line->points[i].x_m;
         xy_m[2u * i + 1u] = (insole_real_t)line->points[i].y_m;
