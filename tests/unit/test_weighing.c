@@ -125,12 +125,12 @@ START_TEST(a_scan_weighs_by_the_model)
     begin(2u);
     weighing.scan_power = (insole_real_t)powers[_i];
     particles[0].x_m = 20; /* a node */
-    particles[0].y_m = 15;
+    particles[0].y_m = INSOLE_R(15.2);
     particles[0].log_weight = 0;
     tell_scan(spot(0.0, 0.0), true);
     pass(NULL);
     ASSERT_NEAR(particles[0].log_weight,
-                powers[_i] * radio_log_likelihood(&radio, 20.0, 15.0, 0.5, readings, APS),
+                powers[_i] * radio_log_likelihood(&radio, 20.0, 15.2, 0.5, readings, APS),
                 5e-4 * powers[_i], "");
 }
 END_TEST
@@ -143,7 +143,7 @@ START_TEST(particles_are_shaded_by_their_own_direction)
     for (int k = 0; k < 4; k++) {
         particles[k] = particles[0];
         particles[k].x_m = 20;
-        particles[k].y_m = 15;
+        particles[k].y_m = INSOLE_R(15.2);
         particles[k].log_weight = 0;
         particles[k].offset_rad =
             insole_wrap_pi(INSOLE_R(0.5) * INSOLE_PI * (insole_real_t)k - INSOLE_R(0.3));
@@ -152,7 +152,7 @@ START_TEST(particles_are_shaded_by_their_own_direction)
     pass(NULL);
     for (int k = 0; k < 4; k++) {
         ASSERT_NEAR(particles[k].log_weight,
-                    radio_log_likelihood(&radio, 20.0, 15.0, 1.5707963 * k, readings, APS), 1e-3,
+                    radio_log_likelihood(&radio, 20.0, 15.2, 1.5707963 * k, readings, APS), 1e-3,
                     "");
     }
 }
