@@ -33,6 +33,7 @@
 #include "insole/fuse/particle_config.h"
 #include "insole/fuse/particle_filter.h"
 #include "insole/fuse/step_ekf.h"
+#include "insole/fuse/step_filter.h"
 #include "insole/fuse/step_fusion.h"
 #include "insole/fuse/step_news.h"
 #include "insole/fuse/step_ukf.h"
@@ -55,6 +56,7 @@
 #include "insole/place/ml_fix.h"
 #include "insole/place/propagation.h"
 #include "insole/place/radio_map.h"
+#include "insole/place/radio_solver.h"
 #include "insole/place/radio_survey.h"
 #include "insole/place/range_fix.h"
 #include "insole/place/robust_fit.h"
@@ -77,5 +79,11 @@
 #include "insole/track/foot_tracker.h"
 #include "insole/track/foot_walk.h"
 #include "insole/track/fusion_radio.h"
+#include "insole/track/phone_compass.h"
+#include "insole/track/phone_config.h"
+#include "insole/track/phone_place.h"
+#include "insole/track/phone_radio.h"
+#include "insole/track/phone_tracker.h"
+#include "insole/track/phone_way.h"
 
 #endif

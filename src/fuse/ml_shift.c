@@ -220,3 +220,38 @@ insole_status_t insole_ml_shift_fix(insole_ml_shift_t *ml, const insole_spot_fix
     ml->fixes++;
     return INSOLE_OK;
 }
+
+/* ---- for a tracker ---------------------------------------------------------------------- */
+
+static insole_status_t begin_state(void *state, const insole_step_filter_begin_t *begin)
+{
+    return begin ? insole_ml_shift_start(state, begin->spot, begin->cov_m2, begin->offset_rad)
+                 : INSOLE_ERR_NULL;
+}
+
+static insole_status_t step_state(void *state, uint64_t t_us, const insole_pace_t *pace)
+{
+    (void)t_us;
+    return insole_ml_shift_step(state, pace);
+}
+
+static insole_status_t fix_state(void *state, const insole_spot_fix_t *fix)
+{
+    return insole_ml_shift_fix(state, fix);
+}
+
+static insole_status_t answer_state(const void *state, insole_step_filter_answer_t *answer)
+{
+    const insole_ml_shift_t *ml = state;
+    if (!ml || !answer) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!ml->started) {
+        return INSOLE_ERR_STATE;
+    }
+    *answer = (insole_step_filter_answer_t){ml->spot, ml->P, ml->offset_rad, ZERO, ONE};
+    return INSOLE_OK;
+}
+
+const insole_step_filter_calls_t insole_ml_shift_calls = {
+    .start = begin_state, .step = step_state, .fix = fix_state, .answer = answer_state};

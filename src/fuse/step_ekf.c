@@ -13,3 +13,16 @@ insole_step_way_t insole_step_ekf(const insole_pace_t *pace)
                              insole_sym2_add_outer(Q, var_heading_rad2, across)};
     return way;
 }
+
+static insole_status_t step_state(void *state, uint64_t t_us, const insole_pace_t *pace)
+{
+    (void)t_us;
+    return insole_step_fusion_step(state, insole_step_ekf, pace);
+}
+
+const insole_step_filter_calls_t insole_step_ekf_calls = {
+    .start = insole_step_fusion_begin_state,
+    .step = step_state,
+    .fix = insole_step_fusion_fix_state,
+    .answer = insole_step_fusion_answer_state,
+};

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/step_fusion.h"
 
+#include <stddef.h>
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -194,3 +196,43 @@ insole_status_t insole_step_fusion_fix(insole_step_fusion_t *fusion, const insol
     }
     return take(fusion, fix);
 }
+
+/* ---- for a tracker ---------------------------------------------------------------------- */
+
+insole_status_t insole_step_fusion_begin_state(void *state, const insole_step_filter_begin_t *begin)
+{
+    return begin ? insole_step_fusion_start(state, begin->spot, begin->cov_m2, begin->offset_rad)
+                 : INSOLE_ERR_NULL;
+}
+
+insole_status_t insole_step_fusion_fix_state(void *state, const insole_spot_fix_t *fix)
+{
+    return insole_step_fusion_fix(state, fix);
+}
+
+insole_status_t insole_step_fusion_answer_state(const void *state,
+                                                insole_step_filter_answer_t *answer)
+{
+    const insole_step_fusion_t *fusion = state;
+    if (!fusion || !answer) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!fusion->started) {
+        return INSOLE_ERR_STATE;
+    }
+    *answer = (insole_step_filter_answer_t){fusion->spot, fusion->P, fusion->offset_rad, ZERO, ONE};
+    return INSOLE_OK;
+}
+
+static insole_status_t step_state(void *state, uint64_t t_us, const insole_pace_t *pace)
+{
+    (void)t_us;
+    return insole_step_fusion_step(state, NULL, pace);
+}
+
+const insole_step_filter_calls_t insole_step_kf_calls = {
+    .start = insole_step_fusion_begin_state,
+    .step = step_state,
+    .fix = insole_step_fusion_fix_state,
+    .answer = insole_step_fusion_answer_state,
+};

@@ -28,3 +28,16 @@ insole_step_way_t insole_step_ukf(const insole_pace_t *pace)
     insole_step_way_t way = {insole_spot(mean[0], mean[1]), insole_sym2(Q[0], Q[1], Q[3])};
     return way;
 }
+
+static insole_status_t step_state(void *state, uint64_t t_us, const insole_pace_t *pace)
+{
+    (void)t_us;
+    return insole_step_fusion_step(state, insole_step_ukf, pace);
+}
+
+const insole_step_filter_calls_t insole_step_ukf_calls = {
+    .start = insole_step_fusion_begin_state,
+    .step = step_state,
+    .fix = insole_step_fusion_fix_state,
+    .answer = insole_step_fusion_answer_state,
+};

@@ -231,3 +231,25 @@ insole_status_t insole_kde_fix_normal_reference(const insole_radio_map_t *map,
     *sigma_db = shrink * insole_sqrt(sum / d); /* [PhoneUKF (36)], d + 2: slip in print */
     return INSOLE_OK;
 }
+
+/* ---- for a tracker ---------------------------------------------------------------------- */
+
+static insole_status_t begin_state(void *state, const insole_radio_map_t *map,
+                                   const insole_trusted_area_t *area, const insole_rss_t *readings,
+                                   uint32_t count)
+{
+    return insole_kde_fix_begin(state, map, area, readings, count);
+}
+
+static bool work_state(void *state, const insole_radio_map_t *map, uint32_t points)
+{
+    return insole_kde_fix_work(state, map, points);
+}
+
+static insole_status_t finish_state(void *state, const insole_radio_map_t *map,
+                                    insole_radio_fix_t *fix)
+{
+    return insole_kde_fix_finish(state, map, fix);
+}
+
+const insole_radio_solver_calls_t insole_kde_fix_calls = {begin_state, work_state, finish_state};

@@ -163,3 +163,25 @@ insole_status_t insole_ml_fix_solve(insole_ml_fix_t *ml, const insole_radio_map_
     insole_ml_fix_work(ml, map, UINT32_MAX);
     return insole_ml_fix_finish(ml, map, fix);
 }
+
+/* ---- for a tracker ---------------------------------------------------------------------- */
+
+static insole_status_t begin_state(void *state, const insole_radio_map_t *map,
+                                   const insole_trusted_area_t *area, const insole_rss_t *readings,
+                                   uint32_t count)
+{
+    return insole_ml_fix_begin(state, map, area, readings, count);
+}
+
+static bool work_state(void *state, const insole_radio_map_t *map, uint32_t points)
+{
+    return insole_ml_fix_work(state, map, points);
+}
+
+static insole_status_t finish_state(void *state, const insole_radio_map_t *map,
+                                    insole_radio_fix_t *fix)
+{
+    return insole_ml_fix_finish(state, map, fix);
+}
+
+const insole_radio_solver_calls_t insole_ml_fix_calls = {begin_state, work_state, finish_state};

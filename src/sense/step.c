@@ -76,6 +76,15 @@ static insole_footfall_t *newest_footfall(insole_step_counter_t *c, uint32_t bac
     return &c->footfalls[insole_ring_slot(&c->ring, c->ring.end - back)];
 }
 
+/* It has no step before it: it lasts as long as the one after it. */
+static void borrow(insole_footfall_t *first, const insole_footfall_t *second)
+{
+    uint64_t lasted_us = second->end_us - second->begin_us;
+    first->begin_us = first->end_us > lasted_us ? first->end_us - lasted_us : 0u;
+    first->range_mps2 = second->range_mps2;
+    first->accel_sigma_mps2 = second->accel_sigma_mps2;
+}
+
 static void drop_held(insole_step_counter_t *c)
 {
     c->ring.end -= c->held;
@@ -124,12 +133,7 @@ static void learn(insole_step_counter_t *c)
 /* The first of the held steps borrows from the second; the walker is known from all others. */
 static void begin_walk(insole_step_counter_t *c)
 {
-    insole_footfall_t *first = newest_footfall(c, c->held);
-    const insole_footfall_t *second = newest_footfall(c, c->held - 1u);
-    uint64_t lasted_us = second->end_us - second->begin_us;
-    first->begin_us = first->end_us > lasted_us ? first->end_us - lasted_us : 0u;
-    first->range_mps2 = second->range_mps2;
-    first->accel_sigma_mps2 = second->accel_sigma_mps2;
+    borrow(newest_footfall(c, c->held), newest_footfall(c, c->held - 1u));
     insole_real_t shortest_s = c->config.max_interval_s, sum_mps2 = ZERO;
     for (uint32_t back = 1u; back < c->held; back++) {
         const insole_footfall_t *f = newest_footfall(c, back);
@@ -319,5 +323,22 @@ insole_status_t insole_step_next(insole_step_counter_t *counter, insole_footfall
     }
     *footfall = counter->footfalls[insole_ring_slot(&counter->ring, counter->ring.begin)];
     insole_ring_pop(&counter->ring);
+    return INSOLE_OK;
+}
+
+insole_status_t insole_step_held(const insole_step_counter_t *counter, uint32_t number,
+                                 insole_footfall_t *footfall)
+{
+    if (!counter || !footfall) {
+        return INSOLE_ERR_NULL;
+    }
+    if (number >= counter->held) {
+        return INSOLE_ERR_STATE;
+    }
+    uint32_t at = counter->ring.end - counter->held + number;
+    *footfall = counter->footfalls[insole_ring_slot(&counter->ring, at)];
+    if (number == 0u && counter->held > 1u && !counter->walking) {
+        borrow(footfall, &counter->footfalls[insole_ring_slot(&counter->ring, at + 1u)]);
+    }
     return INSOLE_OK;
 }

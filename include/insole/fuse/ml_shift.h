@@ -33,7 +33,7 @@
 #define INSOLE_FUSE_ML_SHIFT_H
 
 #include "insole/base/config.h"
-#include "insole/fuse/step_news.h"
+#include "insole/fuse/step_filter.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -114,6 +114,9 @@ insole_status_t insole_ml_shift_step(insole_ml_shift_t *ml, const insole_pace_t 
 /** @return INSOLE_ERR_NULL; INSOLE_ERR_STATE before the start; INSOLE_ERR_TIME for a fix that is
  *          not newer than the one before; INSOLE_ERR_VALUE as insole_spot_fix_check() */
 insole_status_t insole_ml_shift_fix(insole_ml_shift_t *ml, const insole_spot_fix_t *fix);
+
+/** For a tracker; the state is an `insole_ml_shift_t`. */
+extern const insole_step_filter_calls_t insole_ml_shift_calls;
 
 #ifdef __cplusplus
 }

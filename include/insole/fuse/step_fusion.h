@@ -36,7 +36,7 @@
 #define INSOLE_FUSE_STEP_FUSION_H
 
 #include "insole/base/config.h"
-#include "insole/fuse/step_news.h"
+#include "insole/fuse/step_filter.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -112,6 +112,16 @@ insole_status_t insole_step_fusion_step(insole_step_fusion_t *fusion, insole_ste
  *          not newer than the one before; INSOLE_ERR_VALUE as insole_spot_fix_check(). A fix that
  *          the gate holds off is no refusal: `gated_in_row` tells. */
 insole_status_t insole_step_fusion_fix(insole_step_fusion_t *fusion, const insole_spot_fix_t *fix);
+
+/** What the tables of all methods share, over an `insole_step_fusion_t`. */
+insole_status_t insole_step_fusion_begin_state(void *state,
+                                               const insole_step_filter_begin_t *begin);
+insole_status_t insole_step_fusion_fix_state(void *state, const insole_spot_fix_t *fix);
+insole_status_t insole_step_fusion_answer_state(const void *state,
+                                                insole_step_filter_answer_t *answer);
+
+/** The plain Kalman filter for a tracker. */
+extern const insole_step_filter_calls_t insole_step_kf_calls;
 
 #ifdef __cplusplus
 }

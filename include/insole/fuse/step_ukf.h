@@ -29,6 +29,9 @@ extern "C" {
 /** A method of insole_step_fusion_step(). */
 insole_step_way_t insole_step_ukf(const insole_pace_t *pace);
 
+/** A step fusion with this method for a tracker; the state is an `insole_step_fusion_t`. */
+extern const insole_step_filter_calls_t insole_step_ukf_calls;
+
 #ifdef __cplusplus
 }
 #endif

@@ -25,6 +25,7 @@
 
 #include "insole/base/config.h"
 #include "insole/place/map_search.h"
+#include "insole/place/radio_solver.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -84,6 +85,9 @@ bool insole_kde_fix_work(insole_kde_fix_t *kde, const insole_radio_map_t *map, u
  *  @return INSOLE_ERR_STATE when work is left, no scan was begun or no point lies in the area */
 insole_status_t insole_kde_fix_finish(insole_kde_fix_t *kde, const insole_radio_map_t *map,
                                       insole_radio_fix_t *fix);
+
+/** The three for a tracker, over an `insole_kde_fix_t`. */
+extern const insole_radio_solver_calls_t insole_kde_fix_calls;
 
 /** All three at once. */
 insole_status_t insole_kde_fix_solve(insole_kde_fix_t *kde, const insole_radio_map_t *map,

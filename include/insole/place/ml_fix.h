@@ -27,6 +27,7 @@
 
 #include "insole/base/config.h"
 #include "insole/place/map_search.h"
+#include "insole/place/radio_solver.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -81,6 +82,9 @@ bool insole_ml_fix_work(insole_ml_fix_t *ml, const insole_radio_map_t *map, uint
  *  @return INSOLE_ERR_STATE when work is left, no scan was begun or no point lies in the area */
 insole_status_t insole_ml_fix_finish(insole_ml_fix_t *ml, const insole_radio_map_t *map,
                                      insole_radio_fix_t *fix);
+
+/** The three for a tracker, over an `insole_ml_fix_t`. */
+extern const insole_radio_solver_calls_t insole_ml_fix_calls;
 
 /** All three at once. */
 insole_status_t insole_ml_fix_solve(insole_ml_fix_t *ml, const insole_radio_map_t *map,

@@ -130,6 +130,13 @@ insole_status_t insole_step_push(insole_step_counter_t *counter, uint64_t t_us,
  *  @return INSOLE_ERR_NULL, INSOLE_ERR_STATE when there is none */
 insole_status_t insole_step_next(insole_step_counter_t *counter, insole_footfall_t *footfall);
 
+/** A peak that is held back: it will be a step if this proves to be a walk. The first of them has
+ *  the duration of the one after it, as far as there is one.
+ *  @param number  0: the oldest
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_STATE when there are no more */
+insole_status_t insole_step_held(const insole_step_counter_t *counter, uint32_t number,
+                                 insole_footfall_t *footfall);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/track/phone_place.h"
+
+#include <stddef.h>
+
+#include "insole/track/foot_anchor.h"
+
+#define ZERO INSOLE_R(0.0)
+#define ONE  INSOLE_R(1.0)
+
+const insole_phone_place_config_t insole_phone_place_defaults = {
+    INSOLE_PHONE_PLACE_KEYS(INSOLE_CONFIG_DEFAULT)};
+
+/* Of a place that is so by definition. */
+static const insole_real_t LEAST_SIGMA_M = INSOLE_R(0.001);
+
+static bool is_whole(const insole_step_filter_t *filter)
+{
+    const insole_step_filter_calls_t *calls = filter->calls;
+    return calls && filter->state && calls->start && calls->step && calls->fix && calls->answer;
+}
+
+insole_status_t insole_phone_place_init(insole_phone_place_t *place,
+                                        const insole_phone_place_config_t *config,
+                                        const insole_auto_start_config_t *config_start,
+                                        const insole_step_filter_t *filter, bool has_radio)
+{
+    if (!place || !config || !config_start || !filter) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_auto_start_t auto_start;
+    if (!(true INSOLE_PHONE_PLACE_KEYS(INSOLE_CONFIG_IN_RANGE)) || !is_whole(filter) ||
+        insole_auto_start_init(&auto_start, config_start) != INSOLE_OK) {
+        return INSOLE_ERR_VALUE;
+    }
+    *place = (insole_phone_place_t){
+        .config = *config, .filter = *filter, .has_radio = has_radio, .auto_start = auto_start};
+    return INSOLE_OK;
+}
+
+insole_status_t insole_phone_place_tell(insole_phone_place_t *place, const insole_start_t *start)
+{
+    if (!place) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_status_t status = insole_foot_anchor_check(start);
+    if (status == INSOLE_OK &&
+        insole_max(insole_abs(start->x_m), insole_abs(start->y_m)) > INSOLE_SPOT_MOST_M) {
+        status = INSOLE_ERR_VALUE;
+    }
+    if (status != INSOLE_OK) {
+        return status;
+    }
+    place->start = *start;
+    place->has_start = true;
+    place->waiting = 0u;
+    return INSOLE_OK;
+}
+
+/* ---- to the filter ---------------------------------------------------------------------- */
+
+static insole_status_t note(insole_phone_place_t *p, insole_status_t status)
+{
+    p->refused += status == INSOLE_OK ? 0u : 1u;
+    return status;
+}
+
+static insole_status_t begin(insole_phone_place_t *p, const insole_step_filter_begin_t *at)
+{
+    insole_status_t status = p->filter.calls->start(p->filter.state, at);
+    if (status == INSOLE_OK) {
+        p->is_started = true;
+        p->starts++;
+    }
+    return note(p, status);
+}
+
+static insole_status_t walk(insole_phone_place_t *p, uint64_t t_us, const insole_pace_t *pace)
+{
+    return note(p, p->filter.calls->step(p->filter.state, t_us, pace));
+}
+
+static bool learns_offset(const insole_phone_place_t *p)
+{
+    return p->filter.calls->compass != NULL;
+}
+
+/* ---- a start that was told -------------------------------------------------------------- */
+
+static bool is_reached(const insole_phone_place_t *p, uint64_t t_us)
+{
+    return p->has_start && t_us >= p->start.t_us;
+}
+
+static insole_step_filter_begin_t at_start(const insole_phone_place_t *p, uint64_t t_us)
+{
+    insole_real_t sigma_m = insole_max(p->start.sigma_m, LEAST_SIGMA_M);
+    insole_step_filter_begin_t at = {.t_us = t_us,
+                                     .spot = {p->start.x_m, p->start.y_m},
+                                     .cov_m2 = insole_sym2_circle(insole_square(sigma_m))};
+    return at;
+}
+
+/* The first step waits for the second: both together have the direction that was told. */
+static insole_status_t begin_directed(insole_phone_place_t *p, uint64_t t_us,
+                                      const insole_pace_t *pace)
+{
+    p->first[p->waiting] = *pace;
+    p->first_us[p->waiting++] = t_us;
+    if (p->waiting < INSOLE_PHONE_PLACE_STEPS) {
+        return INSOLE_OK;
+    }
+    insole_spot_t way =
+        insole_spot_add(insole_pace_way(&p->first[0], ZERO), insole_pace_way(&p->first[1], ZERO));
+    insole_step_filter_begin_t at = at_start(p, t_us);
+    at.offset_rad = insole_wrap_pi(p->start.heading_rad - insole_atan2(way.y_m, way.x_m));
+    at.var_offset_rad2 = insole_min(insole_square(p->start.sigma_rad), INSOLE_HEADING_MOST_R2);
+    p->has_start = false;
+    p->waiting = 0u;
+    insole_status_t status = begin(p, &at);
+    for (uint32_t i = 0u; status == INSOLE_OK && i < INSOLE_PHONE_PLACE_STEPS; i++) {
+        status = walk(p, p->first_us[i], &p->first[i]);
+    }
+    return status;
+}
+
+/* The place alone was told. */
+static insole_status_t begin_undirected(insole_phone_place_t *p, uint64_t t_us)
+{
+    insole_step_filter_begin_t at = at_start(p, t_us);
+    p->has_start = false;
+    if (!p->sight.is_known && !learns_offset(p) && p->has_radio) {
+        insole_spot_fix_t fix = {t_us, at.spot, at.cov_m2, {ZERO, ZERO}};
+        insole_auto_start_config_t config = p->auto_start.config;
+        (void)insole_auto_start_init(&p->auto_start, &config);
+        p->is_started = false;
+        return insole_auto_start_fix(&p->auto_start, &fix);
+    }
+    at.offset_rad = p->sight.is_known ? p->sight.mean_rad : ZERO;
+    at.var_offset_rad2 =
+        p->sight.is_known ? insole_square(p->sight.sigma_mean_rad) : INSOLE_HEADING_MOST_R2;
+    return begin(p, &at);
+}
+
+static insole_status_t begin_at_origin(insole_phone_place_t *p, uint64_t t_us)
+{
+    const insole_start_t origin = {.t_us = t_us};
+    p->start = origin;
+    insole_step_filter_begin_t at = at_start(p, t_us);
+    return begin(p, &at);
+}
+
+insole_status_t insole_phone_place_step(insole_phone_place_t *place, uint64_t t_us,
+                                        const insole_pace_t *pace)
+{
+    if (!place || !pace) {
+        return INSOLE_ERR_NULL;
+    }
+    if (is_reached(place, t_us) && place->start.has_heading) {
+        return begin_directed(place, t_us, pace);
+    }
+    if (is_reached(place, t_us)) {
+        (void)begin_undirected(place, t_us);
+    } else if (!place->is_started && !place->has_start && !place->has_radio) {
+        (void)begin_at_origin(place, t_us);
+    }
+    return place->is_started ? walk(place, t_us, pace)
+                             : note(place, insole_auto_start_step(&place->auto_start, pace));
+}
+
+/* ---- fixes ------------------------------------------------------------------------------ */
+
+static insole_status_t begin_by_fixes(insole_phone_place_t *p, const insole_spot_fix_t *fix)
+{
+    insole_auto_start_answer_t found;
+    if (p->sight.is_known) {
+        (void)insole_auto_start_compass(&p->auto_start, p->sight.mean_rad, p->sight.sigma_mean_rad);
+    }
+    insole_status_t status = insole_auto_start_fix(&p->auto_start, fix);
+    if (status != INSOLE_OK || insole_auto_start_answer(&p->auto_start, &found) != INSOLE_OK) {
+        return note(p, status);
+    }
+    bool directs = found.var_offset_rad2 <= insole_square(p->config.direct_sigma_rad);
+    if (found.ready || (directs && learns_offset(p))) {
+        const insole_step_filter_begin_t at = {
+            fix->t_us, found.spot, found.cov_m2, found.offset_rad, found.var_offset_rad2, true};
+        return begin(p, &at);
+    }
+    return INSOLE_OK;
+}
+
+insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole_spot_fix_t *fix)
+{
+    if (!place || !fix) {
+        return INSOLE_ERR_NULL;
+    }
+    if (is_reached(place, fix->t_us)) {
+        return INSOLE_OK;
+    }
+    return place->is_started ? note(place, place->filter.calls->fix(place->filter.state, fix))
+                             : begin_by_fixes(place, fix);
+}
+
+insole_status_t insole_phone_place_compass(insole_phone_place_t *place)
+{
+    if (!place) {
+        return INSOLE_ERR_NULL;
+    }
+    const insole_phone_sight_t *sight = &place->sight;
+    if (!place->is_started || !learns_offset(place) || !sight->is_known) {
+        return INSOLE_OK;
+    }
+    return note(place, place->filter.calls->compass(place->filter.state, sight->block_rad,
+                                                    sight->sigma_block_rad));
+}
+
+/* ---- gaps ------------------------------------------------------------------------------- */
+
+insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_us,
+                                       insole_real_t gap_s)
+{
+    if (!place) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!(gap_s >= ZERO) || !insole_is_finite(gap_s)) {
+        return INSOLE_ERR_VALUE;
+    }
+    insole_step_filter_answer_t at;
+    if (!place->is_started || place->filter.calls->answer(place->filter.state, &at) != INSOLE_OK) {
+        return INSOLE_OK;
+    }
+    insole_real_t way_m2 = insole_square(place->config.sigma_walk_mps * gap_s);
+    insole_real_t turn_rad2 = insole_square(place->config.sigma_gap_turn_rad_rts) * gap_s;
+    const insole_step_filter_begin_t anew = {
+        t_us,
+        at.spot,
+        insole_spot_cov(insole_sym2_add(at.cov_m2, insole_sym2_circle(way_m2))),
+        at.offset_rad,
+        insole_min(at.var_offset_rad2 + turn_rad2, INSOLE_HEADING_MOST_R2),
+        false};
+    return begin(place, &anew);
+}
+
+/* ---- the answer ------------------------------------------------------------------------- */
+
+static insole_step_filter_answer_t told_answer(const insole_phone_place_t *p, uint64_t t_us)
+{
+    insole_step_filter_begin_t at = at_start(p, t_us);
+    insole_real_t var_rad2 =
+        p->start.has_heading ? insole_square(p->start.sigma_rad) : INSOLE_HEADING_MOST_R2;
+    insole_step_filter_answer_t answer = {at.spot, at.cov_m2, p->sight.mean_rad, var_rad2, ONE};
+    return answer;
+}
+
+insole_status_t insole_phone_place_answer(const insole_phone_place_t *place, uint64_t t_us,
+                                          insole_phone_answer_t *answer)
+{
+    if (!place || !answer) {
+        return INSOLE_ERR_NULL;
+    }
+    const insole_phone_answer_t nowhere = {.at = {.scale = ONE}};
+    insole_auto_start_answer_t found;
+    *answer = nowhere;
+    if (is_reached(place, t_us)) {
+        answer->knowledge = INSOLE_PHONE_TOLD;
+        answer->at = told_answer(place, t_us);
+        answer->knows_offset = !place->start.has_heading && place->sight.is_known;
+    } else if (place->is_started &&
+               place->filter.calls->answer(place->filter.state, &answer->at) == INSOLE_OK) {
+        answer->knowledge = INSOLE_PHONE_FILTERED;
+        answer->knows_offset = true;
+    } else if (insole_auto_start_answer(&place->auto_start, &found) == INSOLE_OK) {
+        const insole_step_filter_answer_t at = {found.spot, found.cov_m2, found.offset_rad,
+                                                found.var_offset_rad2, ONE};
+        answer->knowledge = INSOLE_PHONE_GUESSED;
+        answer->at = at;
+        answer->knows_offset = true;
+    }
+    return INSOLE_OK;
+}

@@ -1,0 +1,398 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/track/phone_tracker.h"
+
+#include <stddef.h>
+
+#include "insole/move/heading.h"
+#include "insole/move/magnetic.h"
+
+#define ZERO INSOLE_R(0.0)
+
+/* A peak without one before it has no duration yet. */
+static const uint64_t LONGEST_STEP_US = 1000000u;
+
+static bool has_filter(const insole_phone_parts_t *parts)
+{
+    return parts->filter.calls != NULL;
+}
+
+insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
+                                          const insole_phone_tracker_config_t *config,
+                                          const insole_phone_parts_t *parts,
+                                          const insole_radio_map_t *map)
+{
+    if (!tracker || !config || !parts) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_phone_radio_t radio;
+    if (insole_phone_config_check(config) != INSOLE_OK ||
+        insole_phone_radio_init(&radio, &parts->solver, map, config->radio_late_s) != INSOLE_OK ||
+        (!has_filter(parts) && !insole_phone_radio_can_hear(&radio))) {
+        return INSOLE_ERR_VALUE;
+    }
+    insole_phone_place_t place = {.starts = 0u};
+    if (has_filter(parts) &&
+        insole_phone_place_init(&place, &config->place, &config->auto_start, &parts->filter,
+                                insole_phone_radio_can_hear(&radio)) != INSOLE_OK) {
+        return INSOLE_ERR_VALUE;
+    }
+    *tracker = (insole_phone_tracker_t){
+        .config = *config, .parts = *parts, .radio = radio, .place = place};
+    (void)insole_screen_init(&tracker->screen, &config->screen);
+    (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
+    (void)insole_attitude_init(&tracker->attitude, &config->attitude);
+    (void)insole_step_init(&tracker->steps, &config->step);
+    (void)insole_phone_compass_init(&tracker->compass, &config->compass);
+    return insole_phone_way_init(&tracker->way);
+}
+
+static insole_status_t answer(insole_phone_tracker_t *t, insole_status_t status)
+{
+    t->counts.refused += status == INSOLE_OK ? 0u : 1u;
+    return status;
+}
+
+insole_status_t insole_phone_tracker_start(insole_phone_tracker_t *tracker,
+                                           const insole_start_t *start)
+{
+    if (!tracker) {
+        return INSOLE_ERR_NULL;
+    }
+    return answer(tracker, has_filter(&tracker->parts)
+                               ? insole_phone_place_tell(&tracker->place, start)
+                               : INSOLE_ERR_STATE);
+}
+
+/* ---- steps ------------------------------------------------------------------------------ */
+
+static bool pace_of(const insole_phone_tracker_t *t, const insole_footfall_t *footfall,
+                    insole_pace_t *pace)
+{
+    if (insole_step_length(&t->config.step_length, footfall, &pace->length_m) != INSOLE_OK ||
+        insole_phone_way_direction(&t->way, footfall, &pace->heading_rad) != INSOLE_OK) {
+        return false;
+    }
+    pace->var_length_m2 = insole_square(t->config.sigma_length_share * pace->length_m);
+    pace->var_heading_rad2 = t->yaw_rad2 + insole_square(t->config.sigma_ahead_rad);
+    return true;
+}
+
+static void take_footfall(insole_phone_tracker_t *t, const insole_footfall_t *footfall)
+{
+    insole_phone_step_t step = {*footfall, {ZERO, ZERO, ZERO, ZERO}};
+    if (!pace_of(t, footfall, &step.pace)) {
+        return;
+    }
+    (void)insole_phone_way_go(&t->way, footfall, insole_pace_way(&step.pace, ZERO));
+    t->step = step;
+    t->has_step = true;
+    t->coasting = false;
+    t->counts.steps++;
+    if (has_filter(&t->parts)) {
+        (void)insole_phone_place_step(&t->place, footfall->end_us, &step.pace);
+    }
+}
+
+/* The way up to a time of the steps that are shown and not yet told, n. */
+static insole_spot_t held_way(const insole_phone_tracker_t *t, uint64_t until_us)
+{
+    insole_spot_t sum = {ZERO, ZERO};
+    insole_footfall_t footfall;
+    insole_pace_t pace;
+    bool shows = t->steps.held >= (uint32_t)t->config.shown_steps;
+    for (uint32_t i = 0u; shows && insole_step_held(&t->steps, i, &footfall) == INSOLE_OK; i++) {
+        if (footfall.end_us - footfall.begin_us > LONGEST_STEP_US) {
+            footfall.begin_us = footfall.end_us - LONGEST_STEP_US;
+        }
+        if (pace_of(t, &footfall, &pace)) {
+            sum = insole_spot_add_scaled(sum, insole_phone_way_share(&footfall, until_us),
+                                         insole_pace_way(&pace, ZERO));
+        }
+    }
+    return sum;
+}
+
+/* Anew only when peaks have come or gone. */
+static void show_held(insole_phone_tracker_t *t)
+{
+    if (t->steps.held != t->shown_count || t->steps.last_us != t->shown_end_us) {
+        t->shown = held_way(t, UINT64_MAX);
+        t->shown_count = t->steps.held;
+        t->shown_end_us = t->steps.last_us;
+    }
+}
+
+static void count_steps(insole_phone_tracker_t *t, const insole_imu_t *imu)
+{
+    insole_footfall_t footfall;
+    (void)insole_step_push(&t->steps, imu->t_us, imu->accel_mps2);
+    while (insole_step_next(&t->steps, &footfall) == INSOLE_OK) {
+        take_footfall(t, &footfall);
+    }
+    show_held(t);
+}
+
+/* ---- the fix ---------------------------------------------------------------------------- */
+
+static insole_fix_state_t state_of(const insole_phone_tracker_t *t,
+                                   const insole_phone_answer_t *known)
+{
+    insole_real_t var_m2 = known->at.cov_m2.xx + known->at.cov_m2.yy;
+    if (!t->attitude.aligned) {
+        return INSOLE_FIX_ALIGN;
+    }
+    if (known->knowledge == INSOLE_PHONE_NOWHERE || known->knowledge == INSOLE_PHONE_GUESSED) {
+        return INSOLE_FIX_SEARCH;
+    }
+    if (var_m2 > insole_square(t->config.lost_sigma_m)) {
+        return INSOLE_FIX_LOST;
+    }
+    if (var_m2 > insole_square(t->config.search_sigma_m)) {
+        return INSOLE_FIX_SEARCH;
+    }
+    return t->coasting ? INSOLE_FIX_COAST : INSOLE_FIX_TRACK;
+}
+
+/* The offset; where only a told direction is known, that of what is walked, or faced, gives it. */
+static insole_real_t offset_of(const insole_phone_tracker_t *t, const insole_phone_answer_t *known)
+{
+    if (known->knows_offset) {
+        return known->at.offset_rad;
+    }
+    if (known->knowledge != INSOLE_PHONE_TOLD || !t->place.start.has_heading) {
+        return ZERO;
+    }
+    insole_turn_t from = t->ahead;
+    if (insole_spot_dot(t->shown, t->shown) > ZERO) {
+        from.cos = t->shown.x_m;
+        from.sin = t->shown.y_m;
+    }
+    return insole_wrap_pi(t->place.start.heading_rad - insole_atan2(from.sin, from.cos));
+}
+
+static void fix_by_filter(insole_phone_tracker_t *t, insole_fix_t *fix)
+{
+    insole_phone_answer_t known;
+    (void)insole_phone_place_answer(&t->place, fix->t_us, &known);
+    insole_real_t offset_rad = offset_of(t, &known);
+    insole_spot_t spot = known.at.spot;
+    if (known.knowledge != INSOLE_PHONE_NOWHERE) {
+        insole_spot_t shown = insole_turn_way(insole_turn(offset_rad), t->shown);
+        spot = insole_spot_add_scaled(spot, known.at.scale, shown);
+    }
+    fix->position_m = insole_vec3(spot.x_m, spot.y_m, ZERO);
+    fix->heading_rad = insole_wrap_pi(insole_atan2(t->ahead.sin, t->ahead.cos) + offset_rad);
+    fix->var_x_m2 = known.at.cov_m2.xx;
+    fix->cov_xy_m2 = known.at.cov_m2.xy;
+    fix->var_y_m2 = known.at.cov_m2.yy;
+    fix->var_heading_rad2 =
+        insole_min(t->yaw_rad2 + known.at.var_offset_rad2, INSOLE_HEADING_MOST_R2);
+    fix->state = state_of(t, &known);
+}
+
+static void fix_by_radio(const insole_phone_tracker_t *t, insole_fix_t *fix)
+{
+    fix->var_heading_rad2 = INSOLE_HEADING_MOST_R2;
+    fix->state = INSOLE_FIX_SEARCH;
+    if (t->radio.has_fix) {
+        const insole_radio_fix_t *radio = &t->radio.fix;
+        uint64_t age_us = fix->t_us > t->radio.t_us ? fix->t_us - t->radio.t_us : 0u;
+        bool fresh = insole_seconds(0u, age_us) <= t->config.radio_fresh_s;
+        fix->position_m = insole_vec3(radio->spot.x_m, radio->spot.y_m, ZERO);
+        fix->var_x_m2 = radio->var_x_m2;
+        fix->cov_xy_m2 = radio->cov_xy_m2;
+        fix->var_y_m2 = radio->var_y_m2;
+        fix->state = fresh ? INSOLE_FIX_TRACK : INSOLE_FIX_COAST;
+    }
+}
+
+/* ---- samples ---------------------------------------------------------------------------- */
+
+static void cross_gap(insole_phone_tracker_t *t, uint64_t t_us)
+{
+    insole_real_t gap_s = insole_seconds(t->t_us, t_us);
+    if (t->has_time && gap_s > t->config.gap_s) {
+        t->counts.gaps++;
+        t->coasting = true;
+        insole_phone_compass_forget(&t->compass);
+        if (has_filter(&t->parts)) {
+            (void)insole_phone_place_gap(&t->place, t_us, gap_s);
+        }
+    }
+}
+
+/* Turns with the sample; the bias is that of the last rest. */
+static void face(insole_phone_tracker_t *t, const insole_clean_t *clean)
+{
+    uint32_t rests = t->still_bias.rests;
+    (void)insole_still_bias_push(&t->still_bias, &clean->imu);
+    if (t->still_bias.rests != rests) {
+        (void)insole_attitude_set_bias(&t->attitude, t->still_bias.gyro_bias_radps);
+    }
+    (void)insole_attitude_push(&t->attitude, t->parts.attitude, &clean->imu,
+                               clean->marks & INSOLE_MARK_CLIP);
+    if (t->attitude.aligned) {
+        insole_sym3_t P = insole_attitude_covariance(&t->attitude);
+        insole_heading_t heading = insole_heading(t->attitude.q, &P);
+        t->ahead = heading.ahead;
+        t->yaw_rad2 = heading.variance_rad2;
+        (void)insole_phone_way_face(&t->way, clean->imu.t_us, heading.ahead);
+    }
+}
+
+static void take_clean(insole_phone_tracker_t *t, const insole_clean_t *clean)
+{
+    const insole_fix_t blank = {.t_us = clean->imu.t_us};
+    cross_gap(t, clean->imu.t_us);
+    face(t, clean);
+    count_steps(t, &clean->imu);
+    t->t_us = clean->imu.t_us;
+    t->has_time = true;
+    t->fix = blank;
+    if (has_filter(&t->parts)) {
+        fix_by_filter(t, &t->fix);
+    } else {
+        fix_by_radio(t, &t->fix);
+    }
+    t->has_fix = true;
+    t->counts.fixes++;
+}
+
+insole_status_t insole_phone_tracker_imu(insole_phone_tracker_t *tracker, const insole_imu_t *imu)
+{
+    if (!tracker || !imu) {
+        return INSOLE_ERR_NULL;
+    }
+    if (tracker->finished || tracker->has_fix) {
+        return answer(tracker, tracker->finished ? INSOLE_ERR_STATE : INSOLE_ERR_ROOM);
+    }
+    insole_clean_t clean;
+    if (insole_screen_push(&tracker->screen, imu, &clean) == INSOLE_OK) {
+        take_clean(tracker, &clean);
+    }
+    return INSOLE_OK;
+}
+
+insole_status_t insole_phone_tracker_finish(insole_phone_tracker_t *tracker)
+{
+    if (!tracker) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_clean_t clean;
+    while (!tracker->finished && insole_screen_finish(&tracker->screen, &clean) == INSOLE_OK) {
+        take_clean(tracker, &clean);
+    }
+    tracker->finished = true;
+    return INSOLE_OK;
+}
+
+insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const insole_mag_t *mag)
+{
+    if (!tracker || !mag) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_real_t azimuth_rad;
+    insole_status_t status =
+        insole_magnetic_azimuth(&tracker->attitude, mag->field_ut, &azimuth_rad);
+    if (status != INSOLE_OK) {
+        return answer(tracker, status);
+    }
+    tracker->counts.magnetic++;
+    insole_phone_compass_t *compass = &tracker->compass;
+    bool is_new =
+        insole_phone_compass_push(compass, mag->t_us, insole_vec3_norm(mag->field_ut), azimuth_rad);
+    if (has_filter(&tracker->parts)) {
+        tracker->place.sight = insole_phone_compass_sight(compass);
+    }
+    if (is_new && has_filter(&tracker->parts)) {
+        (void)insole_phone_place_compass(&tracker->place);
+    }
+    return INSOLE_OK;
+}
+
+/* ---- radio ------------------------------------------------------------------------------ */
+
+/* The way since the scan was heard, up to the last step that was told. */
+static insole_spot_t way_since(const insole_phone_tracker_t *t, uint64_t heard_us)
+{
+    return insole_spot_sub(insole_phone_way_since(&t->way, heard_us), held_way(t, heard_us));
+}
+
+static void use_fix(insole_phone_tracker_t *t)
+{
+    const insole_radio_fix_t *told = &t->radio.fix;
+    insole_real_t more_m2 = insole_square(t->config.sigma_fix_m);
+    insole_spot_fix_t fix = {
+        t->radio.t_us, told->spot,
+        insole_sym2(told->var_x_m2 + more_m2, told->cov_xy_m2, told->var_y_m2 + more_m2),
+        way_since(t, t->radio.heard_us)};
+    (void)insole_phone_place_fix(&t->place, &fix);
+}
+
+/* @return false when the whole map is to be looked at */
+static bool trusted_area(const insole_phone_tracker_t *t, insole_trusted_area_t *area)
+{
+    insole_phone_answer_t known;
+    bool wanted = t->config.trust_sigmas > ZERO && has_filter(&t->parts);
+    return wanted && insole_phone_place_answer(&t->place, t->t_us, &known) == INSOLE_OK &&
+           known.knowledge == INSOLE_PHONE_FILTERED &&
+           insole_trusted_area_around(known.at.spot, known.at.cov_m2.xx, known.at.cov_m2.xy,
+                                      known.at.cov_m2.yy, t->config.trust_sigmas,
+                                      t->config.trust_least_m, area) == INSOLE_OK;
+}
+
+insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
+                                          const insole_scan_t *scan)
+{
+    if (!tracker) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_trusted_area_t area;
+    const insole_trusted_area_t *near = trusted_area(tracker, &area) ? &area : NULL;
+    return answer(tracker, insole_phone_radio_hear(&tracker->radio, scan, near));
+}
+
+bool insole_phone_tracker_work(insole_phone_tracker_t *tracker, uint32_t count)
+{
+    if (!tracker || count == 0u) {
+        return false;
+    }
+    if (tracker->radio.in_work) {
+        (void)insole_phone_radio_work(&tracker->radio, count);
+        if (insole_phone_radio_take(&tracker->radio) && has_filter(&tracker->parts)) {
+            use_fix(tracker);
+        }
+        return true;
+    }
+    const insole_step_filter_t *filter = &tracker->parts.filter;
+    return filter->calls && filter->calls->work && filter->calls->work(filter->state, count);
+}
+
+/* ---- out -------------------------------------------------------------------------------- */
+
+insole_status_t insole_phone_tracker_next(insole_phone_tracker_t *tracker, insole_fix_t *fix)
+{
+    if (!tracker || !fix) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!tracker->has_fix) {
+        return INSOLE_ERR_STATE;
+    }
+    *fix = tracker->fix;
+    tracker->has_fix = false;
+    return INSOLE_OK;
+}
+
+insole_status_t insole_phone_tracker_step(insole_phone_tracker_t *tracker,
+                                          insole_phone_step_t *step)
+{
+    if (!tracker || !step) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!tracker->has_step) {
+        return INSOLE_ERR_STATE;
+    }
+    *step = tracker->step;
+    tracker->has_step = false;
+    return INSOLE_OK;
+}
