@@ -53,7 +53,6 @@ insole_status_t insole_phone_place_tell(insole_phone_place_t *place, const insol
     }
     place->start = *start;
     place->has_start = true;
-    place->waiting = 0u;
     return INSOLE_OK;
 }
 
@@ -101,27 +100,25 @@ static insole_step_filter_begin_t at_start(const insole_phone_place_t *p, uint64
     return at;
 }
 
-/* The first step waits for the second: both together have the direction that was told. */
-static insole_status_t begin_directed(insole_phone_place_t *p, uint64_t t_us,
-                                      const insole_pace_t *pace)
+bool insole_phone_place_wants_direction(const insole_phone_place_t *place, uint64_t t_us)
 {
-    p->first[p->waiting] = *pace;
-    p->first_us[p->waiting++] = t_us;
-    if (p->waiting < INSOLE_PHONE_PLACE_STEPS) {
-        return INSOLE_OK;
+    return place && is_reached(place, t_us) && place->start.has_heading;
+}
+
+insole_status_t insole_phone_place_direct(insole_phone_place_t *place, uint64_t t_us,
+                                          insole_real_t direction_rad)
+{
+    if (!place) {
+        return INSOLE_ERR_NULL;
     }
-    insole_spot_t way =
-        insole_spot_add(insole_pace_way(&p->first[0], ZERO), insole_pace_way(&p->first[1], ZERO));
-    insole_step_filter_begin_t at = at_start(p, t_us);
-    at.offset_rad = insole_wrap_pi(p->start.heading_rad - insole_atan2(way.y_m, way.x_m));
-    at.var_offset_rad2 = insole_min(insole_square(p->start.sigma_rad), INSOLE_HEADING_MOST_R2);
-    p->has_start = false;
-    p->waiting = 0u;
-    insole_status_t status = begin(p, &at);
-    for (uint32_t i = 0u; status == INSOLE_OK && i < INSOLE_PHONE_PLACE_STEPS; i++) {
-        status = walk(p, p->first_us[i], &p->first[i]);
+    if (!insole_phone_place_wants_direction(place, t_us)) {
+        return INSOLE_ERR_STATE;
     }
-    return status;
+    insole_step_filter_begin_t at = at_start(place, t_us);
+    at.offset_rad = insole_wrap_pi(place->start.heading_rad - direction_rad);
+    at.var_offset_rad2 = insole_min(insole_square(place->start.sigma_rad), INSOLE_HEADING_MOST_R2);
+    place->has_start = false;
+    return begin(place, &at);
 }
 
 /* The place alone was told. */
@@ -156,10 +153,9 @@ insole_status_t insole_phone_place_step(insole_phone_place_t *place, uint64_t t_
     if (!place || !pace) {
         return INSOLE_ERR_NULL;
     }
-    if (is_reached(place, t_us) && place->start.has_heading) {
-        return begin_directed(place, t_us, pace);
-    }
-    if (is_reached(place, t_us)) {
+    if (insole_phone_place_wants_direction(place, t_us)) {
+        (void)insole_phone_place_direct(place, t_us, pace->heading_rad);
+    } else if (is_reached(place, t_us)) {
         (void)begin_undirected(place, t_us);
     } else if (!place->is_started && !place->has_start && !place->has_radio) {
         (void)begin_at_origin(place, t_us);

@@ -112,13 +112,20 @@ static insole_spot_t held_way(const insole_phone_tracker_t *t, uint64_t until_us
     return sum;
 }
 
-/* Anew only when peaks have come or gone. */
+/* Anew only when peaks have come or gone. The first that are shown have the direction of a start:
+ * should they prove to be no steps, the phone pointed there all the same. */
 static void show_held(insole_phone_tracker_t *t)
 {
-    if (t->steps.held != t->shown_count || t->steps.last_us != t->shown_end_us) {
-        t->shown = held_way(t, UINT64_MAX);
-        t->shown_count = t->steps.held;
-        t->shown_end_us = t->steps.last_us;
+    if (t->steps.held == t->shown_count && t->steps.last_us == t->shown_end_us) {
+        return;
+    }
+    t->shown = held_way(t, UINT64_MAX);
+    t->shown_count = t->steps.held;
+    t->shown_end_us = t->steps.last_us;
+    if (has_filter(&t->parts) && insole_spot_dot(t->shown, t->shown) > ZERO &&
+        insole_phone_place_wants_direction(&t->place, t->shown_end_us)) {
+        (void)insole_phone_place_direct(&t->place, t->shown_end_us,
+                                        insole_atan2(t->shown.y_m, t->shown.x_m));
     }
 }
 

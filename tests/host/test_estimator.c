@@ -34,7 +34,7 @@ static bool keep_row(void *context, const track_row_t *row, failure_t *failure)
     return true;
 }
 
-static bool keep_event(void *context, const foot_event_t *event, failure_t *failure)
+static bool keep_event(void *context, const event_t *event, failure_t *failure)
 {
     result_t *to = context;
     (void)failure;

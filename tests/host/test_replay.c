@@ -15,7 +15,7 @@ static const foot_walk_t bend = {2.0, 1.3, 0.12, 200.0, 20, -3.25};
 /* What a replay gave. */
 typedef struct {
     track_t rows;
-    foot_event_t events[400];
+    event_t events[400];
     int event_count;
     replay_facts_t facts;
     failure_t failure;
@@ -30,7 +30,7 @@ static bool keep_row(void *context, const track_row_t *row, failure_t *failure)
     return true;
 }
 
-static bool keep_event(void *context, const foot_event_t *event, failure_t *failure)
+static bool keep_event(void *context, const event_t *event, failure_t *failure)
 {
     result_t *to = context;
     (void)failure;
@@ -110,7 +110,7 @@ START_TEST(strides_and_stances_are_told)
     int64_t end_us = INT64_MIN;
     run(&request);
     for (int i = 0; i < result.event_count; i++) {
-        const foot_event_t *event = &result.events[i];
+        const event_t *event = &result.events[i];
         ck_assert_int_ge(event->end_us, event->begin_us);
         if (event->kind == EVENT_STRIDE) {
             double lift_s = bend.begin_s + bend.rest_s + strides * (SWING_S + STANCE_S);
@@ -318,7 +318,7 @@ START_TEST(nobody_need_take_the_results)
 }
 END_TEST
 
-static bool refuse_event(void *context, const foot_event_t *event, failure_t *failure)
+static bool refuse_event(void *context, const event_t *event, failure_t *failure)
 {
     (void)context;
     (void)event;

@@ -187,8 +187,8 @@ END_TEST
 
 START_TEST(events_are_written)
 {
-    const foot_event_t stance = {0, 1500000, false, 0, 0, 0, 0, 0, 0, 0};
-    const foot_event_t stride = {1500000, 2400000, true, 1.25, -0.01, 0.5, -0.25, 1.3, -9, 20};
+    const event_t stance = {0, 1500000, false, 0, 0, 0, 0, 0, 0, 0};
+    const event_t stride = {1500000, 2400000, true, 1.25, -0.01, 0.5, -0.25, 1.3, -9, 20};
     FILE *file = tmpfile();
     event_writer_head(file);
     event_writer_row(file, &stance);

@@ -23,11 +23,11 @@ typedef struct {
 typedef struct {
     pair_t *pairs;
     size_t count, room;
-    foot_event_t *strides; /* of the session at hand */
+    event_t *strides; /* of the session at hand */
     size_t stride_count, stride_room;
 } pairs_t;
 
-static bool keep_stride(void *context, const foot_event_t *event, failure_t *failure)
+static bool keep_stride(void *context, const event_t *event, failure_t *failure)
 {
     pairs_t *pairs = context;
     (void)failure;
@@ -40,7 +40,7 @@ static bool keep_stride(void *context, const foot_event_t *event, failure_t *fai
 }
 
 /* True length of a stride where there is truth, else the inertial one; 0: not to be used. */
-static double length_of(const foot_event_t *stride, const track_t *truth)
+static double length_of(const event_t *stride, const track_t *truth)
 {
     double x0, y0, x1, y1;
     if (truth->count == 0u) {
@@ -56,7 +56,7 @@ static double length_of(const foot_event_t *stride, const track_t *truth)
 static void add_pairs(pairs_t *pairs, const track_t *truth)
 {
     for (size_t i = 0u; i < pairs->stride_count; i++) {
-        const foot_event_t *stride = &pairs->strides[i];
+        const event_t *stride = &pairs->strides[i];
         double range = stride->accel_max_mps2 - stride->accel_min_mps2;
         pair_t pair = {length_of(stride, truth), pow(fmax(range, 0.0), 0.25)};
         if (pair.length_m >= shortest_stride_m && pair.root > 0.0) {

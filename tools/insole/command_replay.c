@@ -39,7 +39,7 @@ static bool take_row(void *context, const track_row_t *row, failure_t *failure)
     return track_writer_row(&job->writer, row, failure);
 }
 
-static bool take_event(void *context, const foot_event_t *event, failure_t *failure)
+static bool take_event(void *context, const event_t *event, failure_t *failure)
 {
     job_t *job = context;
     if (job->events == NULL) {

@@ -14,10 +14,10 @@ static void write_number(FILE *file, double value, int decimals)
     fprintf(file, ",%s", number_fixed(number, value, decimals));
 }
 
-void event_writer_row(FILE *file, const foot_event_t *event)
+void event_writer_row(FILE *file, const event_t *event)
 {
     char begin[NUMBER_ROOM], end[NUMBER_ROOM];
-    fprintf(file, "%s,%s,%s", foot_event_name(event->kind), number_time(begin, event->begin_us),
+    fprintf(file, "%s,%s,%s", event_name(event->kind), number_time(begin, event->begin_us),
             number_time(end, event->end_us));
     if (event->kind == EVENT_STRIDE) {
         write_number(file, event->length_m, 4);
@@ -25,6 +25,11 @@ void event_writer_row(FILE *file, const foot_event_t *event)
         write_number(file, event->heading_rad, 5);
         write_number(file, event->turn_rad, 5);
         write_number(file, event->model_length_m, 4);
+    } else if (event->kind == EVENT_STEP) {
+        write_number(file, event->length_m, 4);
+        fputc(',', file);
+        write_number(file, event->heading_rad, 5);
+        fputs(",,", file);
     } else {
         fputs(",,,,,", file);
     }

@@ -17,6 +17,6 @@
 
 void event_writer_head(FILE *file);
 
-void event_writer_row(FILE *file, const foot_event_t *event);
+void event_writer_row(FILE *file, const event_t *event);
 
 #endif

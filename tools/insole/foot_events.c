@@ -6,9 +6,9 @@
 
 #include "convert.h"
 
-static foot_event_t *add(foot_events_t *events, event_kind_t kind, int64_t begin_us, int64_t end_us)
+static event_t *add(foot_events_t *events, event_kind_t kind, int64_t begin_us, int64_t end_us)
 {
-    foot_event_t *event = &events->waiting[events->count++];
+    event_t *event = &events->waiting[events->count++];
     memset(event, 0, sizeof *event);
     event->kind = kind;
     event->begin_us = begin_us;
@@ -42,7 +42,7 @@ static void watch_stride(foot_events_t *events, const insole_foot_fusion_t *fusi
         return;
     }
     events->stride_us = stride->end_us;
-    foot_event_t *event =
+    event_t *event =
         add(events, EVENT_STRIDE, to_log_us(stride->begin_us), to_log_us(stride->end_us));
     event->length_m = (double)stride->length_m;
     event->height_m = (double)stride->displacement_m.z;
@@ -92,18 +92,11 @@ void foot_events_watch(foot_events_t *events, const insole_foot_fusion_t *fusion
     events->fix_us = t_us;
 }
 
-bool foot_events_take(foot_events_t *events, foot_event_t *event)
+bool foot_events_take(foot_events_t *events, event_t *event)
 {
     if (events->taken == events->count) {
         return false;
     }
     *event = events->waiting[events->taken++];
     return true;
-}
-
-const char *foot_event_name(event_kind_t kind)
-{
-    static const char *const names[EVENT_KINDS] = {"stance", "stride",     "start",  "scan",
-                                                   "ranges", "resampling", "redraw", "recovery"};
-    return names[kind];
 }

@@ -9,30 +9,8 @@
 #ifndef INSOLE_HOST_FOOT_EVENTS_H
 #define INSOLE_HOST_FOOT_EVENTS_H
 
+#include "event.h"
 #include "insole/track/foot_fusion.h"
-
-typedef enum {
-    EVENT_STANCE,     /**< only the times are told */
-    EVENT_STRIDE,     /**< from a stance to the next */
-    EVENT_START,      /**< the particles were drawn; of this and what follows only the time */
-    EVENT_SCAN,       /**< signal strengths were worked in */
-    EVENT_RANGES,     /**< ranges were, or that of the strongest access point [TwoOrder (39)] */
-    EVENT_RESAMPLING, /**< of the particles */
-    EVENT_REDRAW,     /**< a share of them was drawn where scans point */
-    EVENT_RECOVERY,   /**< all had died */
-    EVENT_KINDS
-} event_kind_t;
-
-typedef struct {
-    int64_t begin_us, end_us;
-    event_kind_t kind;
-    double length_m;       /**< horizontal */
-    double height_m;       /**< climbed */
-    double heading_rad;    /**< direction, m */
-    double turn_rad;       /**< of the foot */
-    double model_length_m; /**< by [TwoOrder (33)] */
-    double accel_min_mps2, accel_max_mps2;
-} foot_event_t;
 
 /** What the particles are told besides strides. */
 typedef struct {
@@ -41,7 +19,7 @@ typedef struct {
 
 /** All zeros before the first fix. */
 typedef struct {
-    foot_event_t waiting[EVENT_KINDS];
+    event_t waiting[EVENT_KINDS];
     int count, taken;
     int64_t fix_us, stance_begin_us;
     bool is_still;
@@ -59,9 +37,6 @@ foot_news_t foot_events_news(const insole_foot_fusion_t *fusion, uint32_t starts
 void foot_events_watch(foot_events_t *events, const insole_foot_fusion_t *fusion, foot_news_t news,
                        int64_t t_us);
 
-bool foot_events_take(foot_events_t *events, foot_event_t *event);
-
-/** `stance`, `stride`, ... */
-const char *foot_event_name(event_kind_t kind);
+bool foot_events_take(foot_events_t *events, event_t *event);
 
 #endif

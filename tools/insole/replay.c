@@ -21,7 +21,7 @@ typedef struct {
 
 static bool give_events(run_t *run, failure_t *failure)
 {
-    foot_event_t event;
+    event_t event;
     while (estimator_event(&run->estimator, &event)) {
         run->facts->strides += event.kind == EVENT_STRIDE ? 1u : 0u;
         run->facts->walked_m += event.length_m;

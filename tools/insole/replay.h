@@ -36,7 +36,7 @@ typedef struct {
     /** The logs are open, nothing has been read: the time to open what will be written. */
     bool (*begin)(void *context, const session_t *session, failure_t *failure);
     bool (*row)(void *context, const track_row_t *row, failure_t *failure);
-    bool (*event)(void *context, const foot_event_t *event, failure_t *failure);
+    bool (*event)(void *context, const event_t *event, failure_t *failure);
 } replay_sink_t;
 
 /** What became of radio and cloud. */

@@ -67,7 +67,7 @@ typedef struct {
     chart_line_t lines[2];
 } stances_t;
 
-static bool take_stance(void *context, const foot_event_t *event, failure_t *failure)
+static bool take_stance(void *context, const event_t *event, failure_t *failure)
 {
     chart_line_t *line = &((stances_t *)context)->lines[1];
     double begin_s = 1e-6 * (double)event->begin_us, end_s = 1e-6 * (double)event->end_us;

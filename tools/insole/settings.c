@@ -8,6 +8,11 @@ void settings_init(settings_t *settings)
     settings->sensor = sensor_defaults;
     settings->fusion = insole_foot_fusion_defaults;
     settings->propagation = insole_propagation_defaults;
+    settings->phone.tracker = insole_phone_tracker_defaults;
+    settings->phone.step_fusion = insole_step_fusion_defaults;
+    settings->phone.ml_shift = insole_ml_shift_defaults;
+    settings->phone.kde_fix = insole_kde_fix_defaults;
+    settings->phone.ml_fix = insole_ml_fix_defaults;
 }
 
 void settings_correct(const sensor_config_t *sensor, insole_imu_t *imu)

@@ -5,7 +5,12 @@
 #ifndef INSOLE_HOST_SETTINGS_H
 #define INSOLE_HOST_SETTINGS_H
 
+#include "insole/fuse/ml_shift.h"
+#include "insole/fuse/step_fusion.h"
+#include "insole/place/kde_fix.h"
+#include "insole/place/ml_fix.h"
 #include "insole/track/foot_fusion.h"
+#include "insole/track/phone_config.h"
 
 /* clang-format off */
 /** What the program does to the readings of a sensor before the library sees them; firmware does
@@ -27,10 +32,21 @@ typedef struct {
     SENSOR_KEYS(INSOLE_CONFIG_MEMBER)
 } sensor_config_t;
 
+/** Those of the phone tracker and of all that it may be made of. Its screen and its rests have the
+ *  settings of the foot's. */
+typedef struct {
+    insole_phone_tracker_config_t tracker;
+    insole_step_fusion_config_t step_fusion;
+    insole_ml_shift_config_t ml_shift;
+    insole_kde_fix_config_t kde_fix;
+    insole_ml_fix_config_t ml_fix;
+} phone_settings_t;
+
 typedef struct {
     sensor_config_t sensor;
     insole_foot_fusion_config_t fusion; /**< holds those of the first order, `foot` */
     insole_propagation_config_t propagation;
+    phone_settings_t phone;
 } settings_t;
 
 void settings_init(settings_t *settings);

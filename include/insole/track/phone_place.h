@@ -2,15 +2,18 @@
  *
  *  Frames  n: level, that of the attitude.  m: map. heading in m = heading in n + offset.
  *
- *  A start that tells place and direction: the direction is that of the first two steps. One that
- *  tells the place alone: the compass tells the direction, or the fixes do (auto_start.h). None:
- *  the fixes tell both; a filter that learns the offset begins with the first fix when a compass
- *  knows it well enough, another one when auto_start is ready. None, and no fixes to come: the walk
- *  begins at (0, 0), and n is m.
+ *  A start that tells place and direction: whoever sees the first steps tells what direction they
+ *  have in n. One that tells the place alone: the compass tells the direction, or the fixes do
+ * (auto_start.h). None: the fixes tell both; a filter that learns the offset begins with the first
+ * fix when a compass knows it well enough, another one when auto_start is ready. None, and no fixes
+ * to come: the walk begins at (0, 0), and n is m.
  *
  *      insole_phone_place_init(&place, &insole_phone_place_defaults, &auto_start_config, &filter,
  *                              has_radio);
  *      insole_phone_place_tell(&place, &start);
+ *      on the first peaks that may be steps:
+ *                        if (insole_phone_place_wants_direction(&place, t_us))
+ *                            insole_phone_place_direct(&place, t_us, direction_rad);
  *      on each step:     insole_phone_place_step(&place, t_us, &pace);
  *      on each scan:     insole_phone_place_fix(&place, &fix);
  *      on each block of the compass:
@@ -30,8 +33,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-enum { INSOLE_PHONE_PLACE_STEPS = 2 /**< whose direction is that of a start */ };
 
 /* clang-format off */
 #define INSOLE_PHONE_PLACE_KEYS(KEY)                                                              \
@@ -58,11 +59,8 @@ typedef struct {
     insole_start_t start;       /**< told */
     bool has_start;             /**< and not yet used */
     bool is_started;            /**< the filter */
-    insole_pace_t first[INSOLE_PHONE_PLACE_STEPS];
-    uint64_t first_us[INSOLE_PHONE_PLACE_STEPS];
-    uint32_t waiting; /**< steps since a start that told a direction */
-    uint32_t starts;  /**< times the filter was started */
-    uint32_t refused; /**< by the filter: fixes and steps */
+    uint32_t starts;            /**< times the filter was started */
+    uint32_t refused;           /**< by the filter: fixes and steps */
 } insole_phone_place_t;
 
 /** What is known of the place, and how. */
@@ -93,7 +91,17 @@ insole_status_t insole_phone_place_init(insole_phone_place_t *place,
  *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE as insole_foot_tracker_start, and beyond 100 km */
 insole_status_t insole_phone_place_tell(insole_phone_place_t *place, const insole_start_t *start);
 
-/** @param t_us  end of the step
+/** Whether a start that told a direction waits for that of the first steps. */
+bool insole_phone_place_wants_direction(const insole_phone_place_t *place, uint64_t t_us);
+
+/** The first steps since the start go there.
+ *  @param direction_rad  n
+ *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE when nothing waits for it; or as the filter answers */
+insole_status_t insole_phone_place_direct(insole_phone_place_t *place, uint64_t t_us,
+                                          insole_real_t direction_rad);
+
+/** A step that comes while a direction is wanted gives its own.
+ *  @param t_us  end of the step
  *  @return INSOLE_ERR_NULL, or as the filter answers */
 insole_status_t insole_phone_place_step(insole_phone_place_t *place, uint64_t t_us,
                                         const insole_pace_t *pace);

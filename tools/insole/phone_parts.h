@@ -1,0 +1,36 @@
+/** @file phone_parts.h  What the phone tracker is made of, by the name of the method.
+ *
+ *      phone_parts_init(&parts, &setup);
+ *      insole_phone_tracker_init(&tracker, &parts.config, &parts.library, parts.map);
+ *      phone_parts_free(&parts);
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_HOST_PHONE_PARTS_H
+#define INSOLE_HOST_PHONE_PARTS_H
+
+#include "insole/fuse/ml_shift.h"
+#include "insole/fuse/step_fusion.h"
+#include "insole/place/kde_fix.h"
+#include "insole/place/ml_fix.h"
+#include "insole/track/phone_tracker.h"
+
+#include "estimator_setup.h"
+
+/** States of all parts; those in use are pointed at. It stays where it is. */
+typedef struct {
+    insole_phone_tracker_config_t config;
+    insole_phone_parts_t library;
+    const insole_radio_map_t *map; /**< NULL: the method has no use for it, or there is none */
+    insole_step_fusion_t step_fusion;
+    insole_ml_shift_t ml_shift;
+    insole_kde_fix_t kde_fix;
+    insole_ml_fix_t ml_fix;
+} phone_parts_t;
+
+/** @return false when the library does not take the settings */
+bool phone_parts_init(phone_parts_t *parts, const estimator_setup_t *setup);
+
+void phone_parts_free(phone_parts_t *parts);
+
+#endif
