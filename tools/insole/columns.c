@@ -40,15 +40,17 @@ const char *columns_text(const columns_layout_t *layout, int count, char text[CO
 
 /* ---- header ----------------------------------------------------------------------------- */
 
-/* Of those that need not be there the one that may have been meant is told. */
+/* The one that may have been meant is told; of one letter any could be. */
 static bool refuse_column(const columns_t *columns, const char *name, failure_t *failure)
 {
     const columns_layout_t *layout = columns->layout;
     char text[COLUMNS_TEXT];
     nearest_t nearest;
     nearest_begin(&nearest, name);
-    for (int i = layout->needed; i < layout->count; i++) {
-        nearest_offer(&nearest, layout->columns[i].name);
+    for (int i = 0; i < layout->count; i++) {
+        if (layout->columns[i].name[1] != '\0') {
+            nearest_offer(&nearest, layout->columns[i].name);
+        }
     }
     line_reader_fail(&columns->lines, failure, "unknown column \"%.40s\": expected some of %s",
                      name, columns_text(layout, layout->count, text));
