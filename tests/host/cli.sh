@@ -84,7 +84,7 @@ printf 'imu,0,1,2\n' >bad.csv
 
 run --version; status_is 0; has out 'insole '; empty err
 run --help; status_is 0; empty err
-for command in replay score compare calibrate config plan pack; do
+for command in replay score compare calibrate config plan pack radiomap; do
     has out "  $command "
     run "$command" --help; status_is 0; empty err; has out "insole $command"; has out 'Options'
     run help "$command"; status_is 0; has out "insole $command"
@@ -97,7 +97,7 @@ refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' xyzzy
 refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' help xyzzy
 
 # No line of help is too wide for a terminal of 100 columns.
-for command in replay score compare calibrate config plan pack files; do
+for command in replay score compare calibrate config plan pack radiomap files; do
     run help "$command"
     [ "$(awk 'length > 100' out | wc -l)" -eq 0 ] || fail 'lines of more than 100 columns'
 done
@@ -455,6 +455,45 @@ head -n 390 walk.csv >rest.csv
 run calibrate imu rest.csv
 status_is 1
 has err 'rest.csv: shorter than 2 s'
+
+# ---- radio map -----------------------------------------------------------------------------
+
+mkdir -p surveyed
+printf 't,x,y\n0,1,1\n20,21,1\n' >surveyed/truth.csv
+printf 'rss,2,b,-60,0.4\nrss,2,a,-71,0.5\nrss,12,b,-80\nrss,12,c,-50\nrss,12,d,nan\nrss,30,a,-50\n' \
+    >surveyed/radio.csv
+run radiomap surveyed --out surveyed/radiomap.csv
+status_is 0
+empty out
+has err 'radio map: 2 points, 3 access points, 4 entries, 2.0 per point'
+has err '  4 readings in 2 scans of 1 session'
+has err '  left out: 1 readings outside the truth'
+has err '  left out: 1 readings without a number'
+is surveyed/radiomap.csv 'x,y,id,mean_dbm,std_dbm,count
+3.000,1.000,a,-71.0,0.000,1
+3.000,1.000,b,-60.0,0.000,1
+13.000,1.000,b,-80.0,0.000,1
+13.000,1.000,c,-50.0,0.000,1'
+cp surveyed/radiomap.csv before.csv
+run radiomap surveyed --out surveyed/radiomap.csv # the map in the folder is no log
+status_is 0
+cmp -s before.csv surveyed/radiomap.csv || fail 'made another map the second time'
+run radiomap surveyed --keep 1 --late 0 --ahead 0.5 --out -
+status_is 0
+is out 'x,y,id,mean_dbm,std_dbm,count
+3.100,1.000,b,-60.0,0.000,1
+13.500,1.000,c,-50.0,0.000,1'
+refuses 2 'insole radiomap: no survey: expected files or folders with rss and truth records' \
+    radiomap --out r.csv
+refuses 2 'insole radiomap: no --out: expected --out FILE' radiomap surveyed
+refuses 2 'insole radiomap: --out surveyed/radio.csv would overwrite what is read' \
+    radiomap surveyed --out surveyed/radio.csv
+refuses 2 'insole radiomap: --spacing 0: expected a number from 0.05 to 1000' \
+    radiomap surveyed --spacing 0 --out r.csv
+refuses 2 'insole radiomap: --keep 0: expected a whole number from 1 to 65535' \
+    radiomap surveyed --keep 0 --out r.csv
+refuses 1 'absent: cannot open: No such file or directory' radiomap absent --out r.csv
+[ ! -e r.csv ] || fail 'wrote r.csv'
 
 # ---- plan and pack -------------------------------------------------------------------------
 

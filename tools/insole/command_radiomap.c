@@ -6,9 +6,9 @@
 
 #include "number.h"
 #include "output.h"
-#include "platform.h"
 #include "progress.h"
 #include "radiomap_make.h"
+#include "session.h"
 
 static bool parse(const arguments_t *arguments, survey_rule_t *rule, radiomap_options_t *options,
                   failure_t *failure)
@@ -93,13 +93,21 @@ static bool write_file(const radiomap_file_t *file, const char *path, failure_t 
 static bool check_out(const arguments_t *arguments, failure_t *failure)
 {
     const char *out = options_value(arguments, "out");
-    for (size_t i = 0u; i < arguments->operand_count; i++) {
-        if (platform_is_same_file(arguments->operands[i], out)) {
-            return failure_usage(failure, "insole radiomap: --out %s would overwrite what is read",
-                                 out);
+    bool is_read = false;
+    for (size_t i = 0u; i < arguments->operand_count && !is_read; i++) {
+        session_t session;
+        bool is_pipe = strcmp(arguments->operands[i], "-") == 0;
+        if (!is_pipe) {
+            bool is_open = session_open(&session, &arguments->operands[i], 1u, failure);
+            is_read = is_open && session_reads(&session, out);
+            session_close(&session);
+            if (!is_open) {
+                return false;
+            }
         }
     }
-    return true;
+    return !is_read ||
+           failure_usage(failure, "insole radiomap: --out %s would overwrite what is read", out);
 }
 
 static bool run(const arguments_t *arguments, failure_t *failure)
@@ -130,8 +138,8 @@ static const option_t options_of[] = {
     {"spacing", "METRES", "samples in a square of this side are one point (default 2)"},
     {"keep", "N", "of each point the N strongest access points; default: all"},
     {"late", "SECONDS",
-     "radios tell an age that is too old by so much: a scan lies at t - age + late,\n"
-     "but not after t (default 1; 0 for a radio that tells the truth)"},
+     "radios listen later than their ages tell: a scan lies at t - age + late, but\n"
+     "not after t (default 1; 0 for a radio that tells the truth)"},
     {"ahead", "METRES", "a scan speaks of a place so far ahead of the walker (default 0)"},
     {NULL, NULL, NULL}};
 

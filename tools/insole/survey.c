@@ -116,24 +116,30 @@ static bool place_reading(const reader_t *reader, int64_t t_us, survey_reading_t
     return true;
 }
 
+static int64_t youngest_of(const signal_t *signals, size_t count)
+{
+    int64_t youngest_us = signals[0].heard_us;
+    for (size_t i = 1u; i < count; i++) {
+        youngest_us = signals[i].heard_us > youngest_us ? signals[i].heard_us : youngest_us;
+    }
+    return youngest_us;
+}
+
 /* Adds one scan: `count` signals of one time. */
 static void place_scan(reader_t *reader, const signal_t *signals, size_t count)
 {
     survey_t *survey = reader->survey;
     const survey_rule_t *rule = &survey->rule;
-    int64_t youngest_us = INT64_MIN, late_us = to_us(rule->late_s);
+    int64_t youngest_us = youngest_of(signals, count);
     bool is_begun = false;
-    for (size_t i = 0u; i < count; i++) {
-        youngest_us = signals[i].heard_us > youngest_us ? signals[i].heard_us : youngest_us;
-    }
     for (size_t i = 0u; i < count; i++) {
         survey_reading_t reading = {signals[i].id, signals[i].dbm, 0.0, 0.0, 0.0, 0.0};
         int64_t heard_us = rule->whole_scans ? youngest_us : signals[i].heard_us;
-        int64_t latest_us = heard_us > signals[i].t_us ? heard_us : signals[i].t_us;
-        heard_us = heard_us + late_us < latest_us ? heard_us + late_us : latest_us;
+        int64_t late_us = heard_us + to_us(rule->late_s);
+        int64_t at_us = late_us < signals[i].t_us ? late_us : signals[i].t_us;
         if (rule->oldest_s > 0.0 && youngest_us - signals[i].heard_us > to_us(rule->oldest_s)) {
             survey->stale++;
-        } else if (!place_reading(reader, heard_us, &reading)) {
+        } else if (!place_reading(reader, at_us, &reading)) {
             survey->outside++;
         } else {
             if (!is_begun) {
