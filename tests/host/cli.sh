@@ -532,9 +532,9 @@ run plan draw plan.csv --aps aps.csv --out plan.svg
 status_is 0; empty out; empty err
 has plan.svg '>lobby<'
 run plan draw plan.csv --out -; status_is 0; has out '</svg>'
-refuses 2 'insole pack: nothing to pack: expected --plan or --aps' pack --out site.c
+refuses 2 'insole pack: nothing to pack: expected --plan, --aps or --radiomap' pack --out site.c
 refuses 2 'insole pack: no --out: expected --out FILE' pack --plan plan.csv
-refuses 2 'insole pack: takes no operands, only --plan and --aps' pack plan.csv --out site.c
+refuses 2 'insole pack: takes no operands, only --plan, --aps and --radiomap' pack plan.csv --out site.c
 refuses 2 'insole pack: --name 2nd: expected a letter, then letters, digits and underscores, at most 40' \
     pack --plan plan.csv --name 2nd --out site.c
 refuses 2 'insole pack: --out plan.csv would overwrite what is read' \
@@ -547,6 +547,26 @@ status_is 0; empty out; empty err
 has site.c 'const insole_floor_plan_t site_plan = {'
 has site.c '"lobby",'
 run pack --aps aps.csv --name hall --out -; status_is 0; has out 'hall_aps[2]'
+run pack --radiomap surveyed/radiomap.csv --out -; status_is 0
+has out 'extern const insole_radio_map_t site_map;'; has out '    "c",'; lacks out 'site_aps['; lacks out site_plan
+refuses 1 'aps.csv:1: header has no column mean_dbm: expected x,y,id,mean_dbm,std_dbm,count, of which x,y,id,mean_dbm must be there' \
+    pack --radiomap aps.csv --out site.c
+printf 'wall,5,10,0,10,4\n' >walls.csv
+for call in "pack --plan walls.csv --out site.c" "replay walk.csv --plan walls.csv"; do
+    refuses 1 'walls.csv: no outline: expected a ring around where one can walk' $call
+done
+run plan check walls.csv; status_is 1
+has out 'error: no outline: expected a ring around where one can walk'
+mkdir -p mapped
+cp walk.csv surveyed/radiomap.csv mapped
+run replay mapped --out with.csv; status_is 0; lacks err 'radio map'
+run replay walk.csv --out without.csv; cmp -s with.csv without.csv || fail 'the foot took the map'
+run replay walk.csv --radiomap surveyed/radiomap.csv --out with.csv; status_is 0
+has err 'the radio map is left aside: the foot tracker takes none'
+cmp -s with.csv without.csv || fail 'the foot took the map'
+refuses 1 'absent.csv: cannot open: No such file or directory' replay walk.csv --radiomap absent.csv
+refuses 2 'insole replay: --out surveyed/radiomap.csv would overwrite what is read' \
+    replay walk.csv --plan plan.csv --radiomap surveyed/radiomap.csv --out surveyed/radiomap.csv
 
 # ---- simulate, in builds that have it ------------------------------------------------------
 

@@ -138,8 +138,8 @@ static const option_t options_of[] = {
     {"spacing", "METRES", "samples in a square of this side are one point (default 2)"},
     {"keep", "N", "of each point the N strongest access points; default: all"},
     {"late", "SECONDS",
-     "radios listen later than their ages tell: a scan lies at t - age + late, but\n"
-     "not after t (default 1; 0 for a radio that tells the truth)"},
+     "radios listen later than their ages tell: a scan lies at t - age + late,\n"
+     "but not after t (default 1; 0 for a radio that tells the truth)"},
     {"ahead", "METRES", "a scan speaks of a place so far ahead of the walker (default 0)"},
     {NULL, NULL, NULL}};
 

@@ -36,15 +36,15 @@ typedef struct {
 
 /* ---- rows ------------------------------------------------------------------------------- */
 
-/* The point at a place; as many as there were before when it is new. */
-static uint32_t point_at(reader_t *reader, double x_m, double y_m)
+/* The point at a place; as many as there are when it is new. The place counts as it is kept. */
+static uint32_t point_at(reader_t *reader, insole_spot_t spot)
 {
     char x[NUMBER_ROOM], y[NUMBER_ROOM], place[PLACE_ROOM];
-    snprintf(place, sizeof place, "%s,%s", number_fixed(x, x_m, 3), number_fixed(y, y_m, 3));
+    snprintf(place, sizeof place, "%s,%s", number_fixed(x, (double)spot.x_m, 3),
+             number_fixed(y, (double)spot.y_m, 3));
     size_t known = reader->places.count;
     uint32_t point = id_table_number(&reader->places, place);
     if (point == known) {
-        const insole_spot_t spot = {(insole_real_t)x_m, (insole_real_t)y_m};
         reader->spots = memory_room(reader->spots, &reader->spot_room, known + 1u, sizeof spot);
         reader->spots[known] = spot;
     }
@@ -94,12 +94,10 @@ static bool read_row(reader_t *reader)
     if (id == NULL || !is_whole(reader, number[COUNT])) {
         return false;
     }
-    const entry_t entry = {point_at(reader, number[X], number[Y]),
-                           id_table_number(&reader->ids, id),
-                           number[MEAN],
-                           number[STD],
-                           (uint32_t)number[COUNT],
-                           reader->columns.lines.number};
+    const insole_spot_t spot = {(insole_real_t)number[X], (insole_real_t)number[Y]};
+    const entry_t entry = {
+        point_at(reader, spot),  id_table_number(&reader->ids, id), number[MEAN], number[STD],
+        (uint32_t)number[COUNT], reader->columns.lines.number};
     reader->entries = memory_room(reader->entries, &reader->room, reader->count + 1u, sizeof entry);
     reader->entries[reader->count++] = entry;
     return check_limits(reader);

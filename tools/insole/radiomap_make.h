@@ -15,10 +15,10 @@
 #include "radiomap_file.h"
 #include "survey.h"
 
-/** How much later than its age tells a radio has listened [s]. An age counts from the first frame of
- *  a scan, or from one that was kept; what is told is heard up to the end of the scan. On recorded
- *  surveys fixes lie behind no longer from 0.5 s on, and more changes nothing: a scan is then where
- *  it arrives. */
+/** How much later than its age tells a radio has listened [s]. An age counts from the first frame
+ * of a scan, or from one that was kept; what is told is heard up to the end of the scan. On
+ * recorded surveys fixes lie behind no longer from 0.5 s on, and more changes nothing: a scan is
+ * then where it arrives. */
 #define RADIOMAP_LATE_S 1.0
 
 /** How far ahead of the walker a scan speaks of a place [m]. */
