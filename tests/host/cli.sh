@@ -84,7 +84,7 @@ printf 'imu,0,1,2\n' >bad.csv
 
 run --version; status_is 0; has out 'insole '; empty err
 run --help; status_is 0; empty err
-for command in replay score compare calibrate config plan pack; do
+for command in replay score compare calibrate config plan pack radiomap; do
     has out "  $command "
     run "$command" --help; status_is 0; empty err; has out "insole $command"; has out 'Options'
     run help "$command"; status_is 0; has out "insole $command"
@@ -97,7 +97,7 @@ refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' xyzzy
 refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' help xyzzy
 
 # No line of help is too wide for a terminal of 100 columns.
-for command in replay score compare calibrate config plan pack files; do
+for command in replay score compare calibrate config plan pack radiomap files; do
     run help "$command"
     [ "$(awk 'length > 100' out | wc -l)" -eq 0 ] || fail 'lines of more than 100 columns'
 done
@@ -456,6 +456,45 @@ run calibrate imu rest.csv
 status_is 1
 has err 'rest.csv: shorter than 2 s'
 
+# ---- radio map -----------------------------------------------------------------------------
+
+mkdir -p surveyed
+printf 't,x,y\n0,1,1\n20,21,1\n' >surveyed/truth.csv
+printf 'rss,2,b,-60,0.4\nrss,2,a,-71,0.5\nrss,12,b,-80\nrss,12,c,-50\nrss,12,d,nan\nrss,30,a,-50\n' \
+    >surveyed/radio.csv
+run radiomap surveyed --out surveyed/radiomap.csv
+status_is 0
+empty out
+has err 'radio map: 2 points, 3 access points, 4 entries, 2.0 per point'
+has err '  4 readings in 2 scans of 1 session'
+has err '  left out: 1 readings outside the truth'
+has err '  left out: 1 readings without a number'
+is surveyed/radiomap.csv 'x,y,id,mean_dbm,std_dbm,count
+3.000,1.000,a,-71.0,0.000,1
+3.000,1.000,b,-60.0,0.000,1
+13.000,1.000,b,-80.0,0.000,1
+13.000,1.000,c,-50.0,0.000,1'
+cp surveyed/radiomap.csv before.csv
+run radiomap surveyed --out surveyed/radiomap.csv # the map in the folder is no log
+status_is 0
+cmp -s before.csv surveyed/radiomap.csv || fail 'made another map the second time'
+run radiomap surveyed --keep 1 --late 0 --ahead 0.5 --out -
+status_is 0
+is out 'x,y,id,mean_dbm,std_dbm,count
+3.100,1.000,b,-60.0,0.000,1
+13.500,1.000,c,-50.0,0.000,1'
+refuses 2 'insole radiomap: no survey: expected files or folders with rss and truth records' \
+    radiomap --out r.csv
+refuses 2 'insole radiomap: no --out: expected --out FILE' radiomap surveyed
+refuses 2 'insole radiomap: --out surveyed/radio.csv would overwrite what is read' \
+    radiomap surveyed --out surveyed/radio.csv
+refuses 2 'insole radiomap: --spacing 0: expected a number from 0.05 to 1000' \
+    radiomap surveyed --spacing 0 --out r.csv
+refuses 2 'insole radiomap: --keep 0: expected a whole number from 1 to 65535' \
+    radiomap surveyed --keep 0 --out r.csv
+refuses 1 'absent: cannot open: No such file or directory' radiomap absent --out r.csv
+[ ! -e r.csv ] || fail 'wrote r.csv'
+
 # ---- plan and pack -------------------------------------------------------------------------
 
 printf 'outline,0,0,20,0,20,10,0,10\nwall,5,10,0,10,4\nwall,5,10,5.2,10,10\n' >plan.csv
@@ -493,9 +532,9 @@ run plan draw plan.csv --aps aps.csv --out plan.svg
 status_is 0; empty out; empty err
 has plan.svg '>lobby<'
 run plan draw plan.csv --out -; status_is 0; has out '</svg>'
-refuses 2 'insole pack: nothing to pack: expected --plan or --aps' pack --out site.c
+refuses 2 'insole pack: nothing to pack: expected --plan, --aps or --radiomap' pack --out site.c
 refuses 2 'insole pack: no --out: expected --out FILE' pack --plan plan.csv
-refuses 2 'insole pack: takes no operands, only --plan and --aps' pack plan.csv --out site.c
+refuses 2 'insole pack: takes no operands, only --plan, --aps and --radiomap' pack plan.csv --out site.c
 refuses 2 'insole pack: --name 2nd: expected a letter, then letters, digits and underscores, at most 40' \
     pack --plan plan.csv --name 2nd --out site.c
 refuses 2 'insole pack: --out plan.csv would overwrite what is read' \
@@ -508,6 +547,26 @@ status_is 0; empty out; empty err
 has site.c 'const insole_floor_plan_t site_plan = {'
 has site.c '"lobby",'
 run pack --aps aps.csv --name hall --out -; status_is 0; has out 'hall_aps[2]'
+run pack --radiomap surveyed/radiomap.csv --out -; status_is 0
+has out 'extern const insole_radio_map_t site_map;'; has out '    "c",'; lacks out 'site_aps['; lacks out site_plan
+refuses 1 'aps.csv:1: header has no column mean_dbm: expected x,y,id,mean_dbm,std_dbm,count, of which x,y,id,mean_dbm must be there' \
+    pack --radiomap aps.csv --out site.c
+printf 'wall,5,10,0,10,4\n' >walls.csv
+for call in "pack --plan walls.csv --out site.c" "replay walk.csv --plan walls.csv"; do
+    refuses 1 'walls.csv: no outline: expected a ring around where one can walk' $call
+done
+run plan check walls.csv; status_is 1
+has out 'error: no outline: expected a ring around where one can walk'
+mkdir -p mapped
+cp walk.csv surveyed/radiomap.csv mapped
+run replay mapped --out with.csv; status_is 0; lacks err 'radio map'
+run replay walk.csv --out without.csv; cmp -s with.csv without.csv || fail 'the foot took the map'
+run replay walk.csv --radiomap surveyed/radiomap.csv --out with.csv; status_is 0
+has err 'the radio map is left aside: the foot tracker takes none'
+cmp -s with.csv without.csv || fail 'the foot took the map'
+refuses 1 'absent.csv: cannot open: No such file or directory' replay walk.csv --radiomap absent.csv
+refuses 2 'insole replay: --out surveyed/radiomap.csv would overwrite what is read' \
+    replay walk.csv --plan plan.csv --radiomap surveyed/radiomap.csv --out surveyed/radiomap.csv
 
 # ---- simulate, in builds that have it ------------------------------------------------------
 

@@ -134,7 +134,7 @@ static void open_site(replay_request_t *request, bool has_plan, bool has_aps)
                            places_m[i][0], places_m[i][1]);
     }
     const char *aps = scratch_file("aps.csv", text);
-    ck_assert_msg(site_open(&site, has_plan ? plan : NULL, has_aps ? aps : NULL,
+    ck_assert_msg(site_open(&site, has_plan ? plan : NULL, has_aps ? aps : NULL, NULL,
                             &request->settings.propagation, &result.failure),
                   "%s", result.failure.text);
     request->site = &site;

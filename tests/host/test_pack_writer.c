@@ -12,6 +12,9 @@ extern const uint32_t demo_ap_count, student_centre_ap_count;
 extern const insole_ap_t demo_aps[], student_centre_aps[];
 extern const char *const demo_ap_ids[], *const student_centre_ap_ids[];
 
+extern const insole_radio_map_t surveyed_map;
+extern const char *const surveyed_map_ids[];
+
 static const struct {
     const char *plan_path, *aps_path;
     const insole_floor_plan_t *plan;
@@ -30,8 +33,9 @@ static failure_t failure;
 
 static void open_site(const char *plan_path, const char *aps_path)
 {
-    ck_assert_msg(site_open(&site, plan_path, aps_path, &insole_propagation_defaults, &failure),
-                  "%s", failure.text);
+    ck_assert_msg(
+        site_open(&site, plan_path, aps_path, NULL, &insole_propagation_defaults, &failure), "%s",
+        failure.text);
 }
 
 START_TEST(a_packed_plan_is_bit_for_bit_the_one_built)
@@ -107,6 +111,32 @@ START_TEST(packed_access_points_are_those_of_the_file)
 }
 END_TEST
 
+/* The same rows, packed when the suite was built and read now. */
+START_TEST(a_packed_radio_map_is_bit_for_bit_the_one_read)
+{
+    radiomap_file_t file;
+    ck_assert_msg(radiomap_file_read(&file, SURVEYED, &failure), "%s", failure.text);
+    const insole_radio_map_t *a = &file.map, *b = &surveyed_map;
+    size_t points = a->point_count, entries = a->first[points];
+    ck_assert_int_eq(insole_radio_map_check(b), INSOLE_OK);
+    ck_assert_uint_gt(points, 20u);
+    ck_assert_uint_eq(b->point_count, points);
+    ck_assert_uint_eq(b->ap_count, a->ap_count);
+    ck_assert_mem_eq(a->spots, b->spots, points * sizeof *a->spots);
+    ck_assert_mem_eq(a->first, b->first, (points + 1u) * sizeof *a->first);
+    ck_assert_mem_eq(a->visits, b->visits, points);
+    ck_assert_mem_eq(a->aps, b->aps, entries * sizeof *a->aps);
+    ck_assert_mem_eq(a->below, b->below, entries);
+    ck_assert_mem_eq(a->spread, b->spread, entries);
+    ck_assert_mem_eq(a->counts, b->counts, entries);
+    ck_assert_ptr_null(b->bins);
+    for (size_t i = 0u; i < file.ids.count; i++) {
+        ck_assert_str_eq(surveyed_map_ids[i], file.ids.names[i]);
+    }
+    radiomap_file_free(&file);
+}
+END_TEST
+
 /* ---- text ------------------------------------------------------------------------------- */
 
 static const char *pack_text(const char *plan, const char *aps, const char *name)
@@ -143,6 +173,29 @@ START_TEST(what_is_not_there_is_not_written)
     ck_assert_ptr_null(strstr(text, "_plan;"));
     ck_assert_ptr_null(strstr(text, "_walls"));
     expect_part(text, "\nconst insole_ap_t site_aps[1] = {\n");
+}
+END_TEST
+
+START_TEST(of_a_radio_map_what_it_knows_is_written)
+{
+    FILE *file = tmpfile();
+    const char *map = scratch_file("map.csv", "x,y,id,mean_dbm\n1,2.5,b,-60\n1,2.5,a,-61.5\n");
+    bool is_good = site_open(&site, NULL, NULL, map, &insole_propagation_defaults, &failure);
+    ck_assert_msg(is_good, "%s", failure.text);
+    pack_write(file, &site, "hall");
+    site_free(&site);
+    const char *text = text_of(file);
+    expect_part(text, "#include \"insole/place/radio_map.h\"\n");
+    expect_part(text, "\nextern const insole_radio_map_t hall_map;\n"
+                      "extern const char *const hall_map_ids[2];\n");
+    expect_part(text, "static const insole_spot_t hall_map_spots[1] = {\n"
+                      "    {INSOLE_R(1.0), INSOLE_R(2.5)},\n};\n");
+    expect_part(text, "static const uint32_t hall_map_first[2] = {\n    0, 2,\n};\n");
+    expect_part(text, "static const uint8_t hall_map_below[2] = {\n    123, 120,\n};\n");
+    expect_part(text, "    \"a\",\n    \"b\",\n};\n");
+    ck_assert_ptr_null(strstr(text, "spread"));
+    ck_assert_ptr_null(strstr(text, "counts"));
+    ck_assert_ptr_null(strstr(text, "_plan;"));
 }
 END_TEST
 
@@ -226,6 +279,8 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "answers", a_packed_plan_answers_as_the_one_built, ROWS(packed));
     suite_add_loop(suite, "access points", packed_access_points_are_those_of_the_file,
                    ROWS(packed));
+    suite_add(suite, "radio map", a_packed_radio_map_is_bit_for_bit_the_one_read);
+    suite_add(suite, "radio map", of_a_radio_map_what_it_knows_is_written);
     suite_add(suite, "names of tables", tables_have_the_name_given);
     suite_add(suite, "left out", what_is_not_there_is_not_written);
     suite_add(suite, "numbers", numbers_are_literals_of_the_real_type);

@@ -14,8 +14,9 @@ static const char *check_files(const char *plan_path, const char *aps_path, size
     plan_parts_t parts;
     FILE *file = tmpfile();
     memset(&findings, 0, sizeof findings);
-    ck_assert_msg(site_open(&site, plan_path, aps_path, &insole_propagation_defaults, &failure),
-                  "%s", failure.text);
+    ck_assert_msg(
+        site_open_sketch(&site, plan_path, aps_path, &insole_propagation_defaults, &failure), "%s",
+        failure.text);
     plan_parts_find(&parts, &site.plan);
     plan_check(&findings, &site, &parts);
     findings_print(&findings, file, "plan", "aps");

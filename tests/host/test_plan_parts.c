@@ -15,7 +15,7 @@ static failure_t failure;
 static void find(const char *text)
 {
     const char *path = scratch_file("plan.csv", text);
-    ck_assert_msg(site_open(&site, path, NULL, &insole_propagation_defaults, &failure), "%s",
+    ck_assert_msg(site_open_sketch(&site, path, NULL, &insole_propagation_defaults, &failure), "%s",
                   failure.text);
     plan_parts_find(&parts, &site.plan);
 }

@@ -63,10 +63,11 @@ static void expect_well_formed(const char *text)
 
 START_TEST(the_checker_finds_faults)
 {
-    static const char *const good[] = {"<a/>", "<?xml version=\"1.0\"?>\n<a b=\"c\"><d/>x&lt;</a>\n"};
-    static const char *const bad[] = {"",          "<a>",         "<a></b>",        "</a>",
-                                      "<a/><b/>",  "<a b=c/>",    "<a b=\"<\"/>",   "<a>&x;</a>",
-                                      "<a b=\"c/>", "text<a/>",   "<a>\x01</a>",    "<a b=\"&\"/>"};
+    static const char *const good[] = {"<a/>",
+                                       "<?xml version=\"1.0\"?>\n<a b=\"c\"><d/>x&lt;</a>\n"};
+    static const char *const bad[] = {"",           "<a>",      "<a></b>",      "</a>",
+                                      "<a/><b/>",   "<a b=c/>", "<a b=\"<\"/>", "<a>&x;</a>",
+                                      "<a b=\"c/>", "text<a/>", "<a>\x01</a>",  "<a b=\"&\"/>"};
     for (size_t i = 0u; i < sizeof good / sizeof good[0]; i++) {
         expect_well_formed(good[i]);
     }
@@ -173,7 +174,7 @@ START_TEST(a_plot_shows_the_building)
     insole_propagation_config_t propagation = insole_propagation_defaults;
     const char *plan = scratch_file("plan.csv", "outline,-40,-40,40,-40,40,40,-40,40\n");
     const char *aps = scratch_file("aps.csv", "id,x,y\nnorth & south,3,4\nB,-5,6\n");
-    ck_assert_msg(site_open(&site, plan, aps, &propagation, &failure), "%s", failure.text);
+    ck_assert_msg(site_open(&site, plan, aps, NULL, &propagation, &failure), "%s", failure.text);
     make_spiral(&track, 100);
     make_spiral(&other, 7);
     plot_t plot = {"a", "b", &track, &name, 1u, NULL, &site, &other};

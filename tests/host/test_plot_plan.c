@@ -20,7 +20,7 @@ static const char plan_text[] =
 static void open_site(const char *plan, const char *aps)
 {
     bool is_good = site_open(&site, scratch_file("plan.csv", plan),
-                             aps == NULL ? NULL : scratch_file("aps.csv", aps),
+                             aps == NULL ? NULL : scratch_file("aps.csv", aps), NULL,
                              &insole_propagation_defaults, &failure);
     ck_assert_msg(is_good, "%s", failure.text);
 }

@@ -10,13 +10,15 @@ static failure_t failure;
 
 static const char plan_text[] = "loss,12\noutline,0,0,20,0,20,10,0,10\nhole,4,4,6,4,6,6,4,6\n"
                                 "wall,5,10,0,10,4\nwall,5,10,5.2,10,10\n";
+static const char map_text[] = "x,y,id,mean_dbm\n1,1,b,-50\n9,9,b,-60\n9,9,c,-61\n";
 static const char aps_text[] = "id,x,y\na,1,1\nb,19,9\n";
 
 static void open_site(const char *plan, const char *aps)
 {
     const char *plan_path = plan == NULL ? NULL : scratch_file("plan.csv", plan);
     const char *aps_path = aps == NULL ? NULL : scratch_file("aps.csv", aps);
-    bool is_good = site_open(&site, plan_path, aps_path, &insole_propagation_defaults, &failure);
+    bool is_good =
+        site_open(&site, plan_path, aps_path, NULL, &insole_propagation_defaults, &failure);
     ck_assert_msg(is_good, "%s", failure.text);
 }
 
@@ -44,7 +46,7 @@ START_TEST(walls_whose_loss_is_not_told_have_that_of_the_settings)
     insole_walls_between_t between;
     propagation.wall_db = 7;
     const char *path = scratch_file("plan.csv", "outline,0,0,20,0,20,10,0,10\n");
-    ck_assert(site_open(&site, path, NULL, &propagation, &failure));
+    ck_assert(site_open(&site, path, NULL, NULL, &propagation, &failure));
     insole_floor_plan_walls_between(site.building.plan, 5, 5, 25, 5, &between);
     ASSERT_NEAR(between.loss_db, 7.0, 1e-5, "dB");
     ck_assert_ptr_eq(site.building.propagation, &propagation);
@@ -59,6 +61,52 @@ START_TEST(access_points_are_the_buildings)
     ck_assert_uint_eq(site.building.ap_count, 2u);
     ck_assert(site.building.aps[1].x_m == 19 && site.building.aps[1].y_m == 9);
     site_free(&site);
+}
+END_TEST
+
+START_TEST(fingerprints_are_the_sites)
+{
+    const char *map = scratch_file("radiomap.csv", map_text);
+    ck_assert(site_open(&site, NULL, NULL, map, &insole_propagation_defaults, &failure));
+    ck_assert(site_has_radiomap(&site));
+    ck_assert_uint_eq(site.radiomap_file.map.point_count, 2u);
+    ck_assert_ptr_null(site.building.plan);
+    ck_assert_uint_eq(site.building.ap_count, 0u);
+    ck_assert(site_is_file(&site, map));
+    site_free(&site);
+    ck_assert(!site_has_radiomap(&site));
+}
+END_TEST
+
+START_TEST(bad_fingerprints_are_told_and_the_rest_is_freed)
+{
+    const char *plan = scratch_file("plan.csv", plan_text);
+    const char *map = scratch_file("radiomap.csv", "x,y,id\n");
+    ck_assert(!site_open(&site, plan, NULL, map, &insole_propagation_defaults, &failure));
+    ck_assert_ptr_nonnull(strstr(failure.text, "radiomap.csv:1: header has no column mean_dbm"));
+    ck_assert_ptr_null(site.memory.walls);
+    ck_assert_ptr_null(site.plan_file.lines);
+    ck_assert_ptr_null(site.radiomap_file.name);
+}
+END_TEST
+
+/* Nobody could be anywhere in it; it can still be drawn and lose radio waves. */
+START_TEST(a_plan_without_an_outline_is_a_sketch)
+{
+    static const char *const plans[] = {"wall,5,10,0,10,4\n", "hole,4,4,6,4,6,6,4,6\n",
+                                        "floor,1,0,a\nwall,5,1,0,1,4\nfloor,2,3,b\n"
+                                        "outline,0,0,9,0,9,9\n"};
+    for (size_t i = 0u; i < sizeof plans / sizeof plans[0]; i++) {
+        const char *path = scratch_file("sketch.csv", plans[i]);
+        ck_assert(!site_open(&site, path, NULL, NULL, &insole_propagation_defaults, &failure));
+        ck_assert_int_eq(failure.exit_code, EXIT_BAD_INPUT);
+        ck_assert_ptr_nonnull(strstr(
+            failure.text, "sketch.csv: no outline: expected a ring around where one can walk"));
+        ck_assert_ptr_null(site.memory.walls);
+        ck_assert(site_open_sketch(&site, path, NULL, &insole_propagation_defaults, &failure));
+        ck_assert_ptr_nonnull(site.building.plan);
+        site_free(&site);
+    }
 }
 END_TEST
 
@@ -125,7 +173,7 @@ START_TEST(what_cannot_be_built_is_told)
         char message[600];
         const char *path = scratch_file("bad.csv", bad[i].text);
         snprintf(message, sizeof message, "%s%s", path, bad[i].message);
-        ck_assert(!site_open(&site, path, NULL, &insole_propagation_defaults, &failure));
+        ck_assert(!site_open(&site, path, NULL, NULL, &insole_propagation_defaults, &failure));
         ck_assert_int_eq(failure.exit_code, EXIT_BAD_INPUT);
         ck_assert_str_eq(failure.text, message);
     }
@@ -136,7 +184,7 @@ START_TEST(bad_access_points_are_told_and_the_plan_is_freed)
 {
     const char *plan = scratch_file("plan.csv", plan_text);
     const char *aps = scratch_file("aps.csv", "id,x\na,1\n");
-    ck_assert(!site_open(&site, plan, aps, &insole_propagation_defaults, &failure));
+    ck_assert(!site_open(&site, plan, aps, NULL, &insole_propagation_defaults, &failure));
     ck_assert_ptr_nonnull(strstr(failure.text, "aps.csv:1: header has no column y"));
     ck_assert_ptr_null(site.memory.walls);
     ck_assert_ptr_null(site.plan_file.lines);
@@ -167,7 +215,7 @@ START_TEST(too_many_walls_are_told)
         putc('\n', file);
     }
     fclose(file);
-    ck_assert(!site_open(&site, path, NULL, &insole_propagation_defaults, &failure));
+    ck_assert(!site_open(&site, path, NULL, NULL, &insole_propagation_defaults, &failure));
     ck_assert_ptr_nonnull(strstr(failure.text, ": 70000 points: expected at most 65535"));
 }
 END_TEST
@@ -178,6 +226,9 @@ Suite *insole_suite(void)
     suite_add(suite, "plan", a_plan_can_be_asked);
     suite_add(suite, "loss", walls_whose_loss_is_not_told_have_that_of_the_settings);
     suite_add(suite, "access points", access_points_are_the_buildings);
+    suite_add(suite, "fingerprints", fingerprints_are_the_sites);
+    suite_add(suite, "fingerprints", bad_fingerprints_are_told_and_the_rest_is_freed);
+    suite_add(suite, "no outline", a_plan_without_an_outline_is_a_sketch);
     suite_add(suite, "both", both_or_nothing_may_be_there);
     suite_add(suite, "floors", of_several_floors_the_first_counts);
     suite_add(suite, "scan", a_scan_is_heard_in_the_building);

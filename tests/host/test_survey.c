@@ -9,13 +9,20 @@
 
 static failure_t failure;
 
-static survey_t survey_of(const char *text)
+static survey_t survey_by(const survey_rule_t *rule, const char *text)
 {
     survey_t survey;
     memset(&survey, 0, sizeof survey);
+    survey.rule = *rule;
     const char *path = scratch_file("survey.csv", text);
     ck_assert_msg(survey_add(&survey, path, &failure), "%s", failure.text);
     return survey;
+}
+
+static survey_t survey_of(const char *text)
+{
+    const survey_rule_t each_for_itself = {false, 0.0, 0.0, 0.0};
+    return survey_by(&each_for_itself, text);
 }
 
 START_TEST(readings_lie_where_they_were_heard)
@@ -57,6 +64,52 @@ START_TEST(a_walker_looks_where_they_go_and_nowhere_when_they_stand)
         ASSERT_NEAR(survey.readings[i].cos_heading, heading[i][0], 1e-9, "");
         ASSERT_NEAR(survey.readings[i].sin_heading, heading[i][1], 1e-9, "");
     }
+    survey_free(&survey);
+}
+END_TEST
+
+START_TEST(a_whole_scan_lies_where_its_youngest_reading_was_heard)
+{
+    const survey_rule_t rule = {true, 3.5, 0.0, 0.0};
+    survey_t survey =
+        survey_by(&rule, "truth,0,0,0\ntruth,10,10,0\nrss,6,a,-50,2\nrss,6,b,-51,1.5\n"
+                         "rss,6,c,-52,5\nrss,6,d,-53,5.01\nrss,9,a,-54\n");
+    ck_assert_uint_eq(survey.scan_count, 2u);
+    ck_assert_uint_eq(survey.reading_count, 4u);
+    ck_assert_uint_eq(survey.scans[0].count, 3u);
+    ck_assert_uint_eq(survey.stale, 1u);
+    for (size_t i = 0; i < 4; i++) {
+        ASSERT_NEAR(survey.readings[i].x_m, i < 3 ? 4.5 : 9.0, 1e-9, "m");
+    }
+    survey_free(&survey);
+}
+END_TEST
+
+/* Heard at 3 and told at 4: 0.4 s late it lies at 3.4, 2 s late at its arrival. */
+START_TEST(late_radios_lie_later_but_not_after_their_arrival)
+{
+    static const struct {
+        double late_s, x_m[2];
+    } cases[] = {{0.0, {3.0, 3.5}}, {0.4, {3.4, 3.9}}, {0.8, {3.8, 4.0}}, {2.0, {4.0, 4.0}}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const survey_rule_t rule = {false, 0.0, cases[i].late_s, 0.0};
+        survey_t survey =
+            survey_by(&rule, "truth,0,0,0\ntruth,10,10,0\nrss,4,a,-50,1\nrss,4,b,-50,0.5\n");
+        ASSERT_NEAR(survey.readings[0].x_m, cases[i].x_m[0], 1e-9, "m");
+        ASSERT_NEAR(survey.readings[1].x_m, cases[i].x_m[1], 1e-9, "m");
+        survey_free(&survey);
+    }
+}
+END_TEST
+
+START_TEST(what_is_heard_lies_ahead_of_who_walks_and_at_who_stands)
+{
+    const survey_rule_t rule = {true, 0.0, 0.0, 1.5};
+    survey_t survey = survey_by(&rule, "truth,0,0,0\ntruth,10,0,10\ntruth,20,0,10\n"
+                                       "rss,5,a,-50\nrss,15,a,-50\n");
+    ASSERT_NEAR(survey.readings[0].x_m, 0.0, 1e-9, "m");
+    ASSERT_NEAR(survey.readings[0].y_m, 6.5, 1e-9, "m");
+    ASSERT_NEAR(survey.readings[1].y_m, 10.0, 1e-9, "m");
     survey_free(&survey);
 }
 END_TEST
@@ -126,6 +179,9 @@ Suite *insole_suite(void)
     suite_add(suite, "places", what_is_outside_the_truth_or_no_number_is_counted);
     suite_add(suite, "places", a_walker_looks_where_they_go_and_nowhere_when_they_stand);
     suite_add(suite, "places", truth_may_come_in_any_order);
+    suite_add(suite, "whole scans", a_whole_scan_lies_where_its_youngest_reading_was_heard);
+    suite_add(suite, "late", late_radios_lie_later_but_not_after_their_arrival);
+    suite_add(suite, "ahead", what_is_heard_lies_ahead_of_who_walks_and_at_who_stands);
     suite_add(suite, "sessions", sessions_stand_for_themselves);
     suite_add_loop(suite, "refusals", what_is_no_survey_is_refused,
                    (int)(sizeof refusals / sizeof refusals[0]));

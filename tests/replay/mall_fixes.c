@@ -14,27 +14,22 @@
  */
 #include "insole/place/kde_fix.h"
 #include "insole/place/ml_fix.h"
-#include "insole/place/radio_survey.h"
 #include "mall_scans.h"
+#include "radiomap_make.h"
 
-enum { POINTS = 2000, ENTRIES = 250000, FOLDS = 6, SKIPPED = 77 };
+enum { SKIPPED = 77, PARTS = 6 };
 
 static mall_t mall;
 
-static insole_survey_point_t points[POINTS];
-static insole_survey_record_t records[ENTRIES];
-static insole_spot_t spots[POINTS];
-static uint32_t first[POINTS + 1];
-static uint8_t visits[POINTS];
-static uint16_t aps[ENTRIES];
-static uint8_t below[ENTRIES], spread[ENTRIES], counts[ENTRIES];
-static uint8_t bins[ENTRIES * INSOLE_RADIO_BINS];
-static insole_radio_map_t map;
+static radiomap_file_t file;                 /* the map in work */
+static insole_rss_t readings[MALL_READINGS]; /* of the walks, by the numbers of the map */
+static const insole_radio_map_t *const map = &file.map;
 
 typedef struct {
     bool survey_only;
-    double late_s, offset_db, spacing_m, limit_m;
-    uint32_t keep;
+    double late_s, ahead_m, offset_db, limit_m;
+    uint32_t folds; /* of the survey walks */
+    radiomap_options_t map;
     insole_kde_fix_config_t kde;
     insole_ml_fix_config_t ml;
 } options_t;
@@ -55,49 +50,56 @@ typedef struct {
 
 /* ---- the map ---- */
 
-/* The survey walks but those of one part; `fold` = FOLDS: all. */
-static bool is_mapped(const mall_walk_t *walk, uint32_t part, uint32_t fold)
+/* The survey walks but those of one part; `fold` = `folds`: all. */
+static bool is_mapped(const mall_walk_t *walk, uint32_t part, uint32_t fold, uint32_t folds)
 {
-    return !mall_is_test(walk) && (fold == FOLDS || part % FOLDS != fold);
+    return !mall_is_test(walk) && (fold == folds || part % folds != fold);
 }
 
-static void add_walk(insole_radio_survey_t *survey, const mall_walk_t *walk)
+static void add_walk(survey_t *survey, const mall_walk_t *walk)
 {
-    for (uint32_t i = 0; i < walk->scan_count; i++) {
-        const mall_scan_t *scan = &mall.scans[walk->first_scan + i];
-        insole_spot_t spot = {(insole_real_t)scan->x_m, (insole_real_t)scan->y_m};
-        for (uint32_t k = 0; scan->has_truth && k < scan->count; k++) {
-            const insole_rss_t *reading = &mall.readings[scan->first + k];
-            insole_status_t status =
-                insole_radio_survey_add(survey, spot, reading->id, reading->rss_dbm);
-            if (status != INSOLE_OK) {
-                printf("survey: %s\n", insole_status_text(status));
-                exit(EXIT_FAILURE);
-            }
-        }
+    char path[MALL_PATH];
+    failure_t failure;
+    mall_path(path, (int)walk->number, "");
+    if (!survey_add(survey, path, &failure)) {
+        exit(failure_report(&failure));
+    }
+}
+
+/* Readings of the walks have the numbers of the map from now on. */
+static void name_readings(void)
+{
+    static uint32_t numbers[MALL_APS];
+    for (uint32_t i = 0; i < mall.ap_count; i++) {
+        numbers[i] = RADIOMAP_FILE_UNKNOWN;
+        id_table_find(&file.ids, mall.names[i], &numbers[i]);
+    }
+    for (uint32_t i = 0; i < mall.reading_count; i++) {
+        readings[i] = mall.readings[i];
+        readings[i].id = numbers[mall.readings[i].id];
     }
 }
 
 static void build_map(const options_t *options, uint32_t fold)
 {
-    insole_radio_survey_t survey;
-    insole_radio_map_memory_t memory = {spots, first,  visits, POINTS, aps,
-                                        below, spread, counts, bins,   ENTRIES};
-    insole_radio_survey_init(&survey, (insole_real_t)options->spacing_m, points, POINTS, records,
-                             ENTRIES);
+    survey_t survey;
+    failure_t failure;
+    unsigned long weird;
+    memset(&survey, 0, sizeof survey);
+    survey.rule = radiomap_rule(options->late_s, options->ahead_m);
     for (uint32_t w = 0, part = 0; w < mall.walk_count; w++) {
         const mall_walk_t *walk = &mall.walks[w];
-        if (is_mapped(walk, part, fold)) {
+        if (is_mapped(walk, part, fold, options->folds)) {
             add_walk(&survey, walk);
         }
         part += mall_is_test(walk) ? 0u : 1u;
     }
-    insole_status_t status = insole_radio_survey_freeze(&survey, options->keep, &memory, &map);
-    status = status == INSOLE_OK ? insole_radio_map_check(&map) : status;
-    if (status != INSOLE_OK) {
-        printf("map: %s\n", insole_status_text(status));
-        exit(EXIT_FAILURE);
+    radiomap_file_free(&file);
+    if (!radiomap_make(&file, &survey, &options->map, &weird, &failure)) {
+        exit(failure_report(&failure));
     }
+    survey_free(&survey);
+    name_readings();
 }
 
 /* ---- errors ---- */
@@ -120,11 +122,11 @@ static insole_status_t solve(method_t *method, const mall_scan_t *scan, double o
 {
     static insole_rss_t heard[MALL_LINE * 8];
     for (uint32_t i = 0; i < scan->count; i++) {
-        heard[i] = mall.readings[scan->first + i];
+        heard[i] = readings[scan->first + i];
         heard[i].rss_dbm += (insole_real_t)offset_db;
     }
-    return method->by_ml ? insole_ml_fix_solve(&method->ml, &map, NULL, heard, scan->count, fix)
-                         : insole_kde_fix_solve(&method->kde, &map, NULL, heard, scan->count, fix);
+    return method->by_ml ? insole_ml_fix_solve(&method->ml, map, NULL, heard, scan->count, fix)
+                         : insole_kde_fix_solve(&method->kde, map, NULL, heard, scan->count, fix);
 }
 
 static void note_waypoints(method_t *method, const mall_walk_t *walk, double from_s, double to_s,
@@ -217,7 +219,7 @@ static void set_up(const options_t *options)
     kde.offset = 0;
     kde.kernel = INSOLE_KDE_FIX_GAUSS;
     set_up_kde(&methods[GAUSS], "kde gauss", kde);
-    insole_kde_fix_normal_reference(&map, kde.unheard_dbm, &kde.sigma_db);
+    insole_kde_fix_normal_reference(map, kde.unheard_dbm, &kde.sigma_db);
     set_up_kde(&methods[GAUSS_PRINTED], "  width as printed", kde);
     set_up_ml(&methods[ML], "ml gauss", options->ml, 0, 0);
     set_up_ml(&methods[ML_MEAN], "  mean", options->ml, 0, 1);
@@ -231,8 +233,8 @@ static void run_fold(const options_t *options, uint32_t fold)
     set_up(options);
     for (uint32_t w = 0, part = 0; w < mall.walk_count; w++) {
         const mall_walk_t *walk = &mall.walks[w];
-        bool wanted =
-            fold == FOLDS ? mall_is_test(walk) : !mall_is_test(walk) && part % FOLDS == fold;
+        bool wanted = fold == options->folds ? mall_is_test(walk)
+                                             : !mall_is_test(walk) && part % options->folds == fold;
         for (uint32_t m = 0; wanted && m < METHODS; m++) {
             walk_through(&methods[m], walk, options->offset_db);
         }
@@ -243,7 +245,7 @@ static void run_fold(const options_t *options, uint32_t fold)
 static void print_table(void)
 {
     printf("%u points, %u entries, printed width %.2f dB, offset learned %.2f dB\n",
-           (unsigned)map.point_count, (unsigned)map.first[map.point_count],
+           (unsigned)map->point_count, (unsigned)map->first[map->point_count],
            (double)methods[GAUSS_PRINTED].kde.config.sigma_db,
            (double)methods[KDE_LEARN].kde.offset_db);
     printf("%-18s%-39s%s\n", "", "  scans: n, mean, 50/75/90 % m, NEES", "waypoints: the same");
@@ -286,11 +288,12 @@ static void take_pair(options_t *options, const char *word)
 static options_t read_options(int argc, char **argv)
 {
     options_t options = {false,
+                         RADIOMAP_LATE_S,
+                         RADIOMAP_AHEAD_M,
                          0.0,
-                         0.0,
-                         2.5,
                          HUGE_VAL,
-                         UINT32_MAX,
+                         PARTS,
+                         {2.5, UINT32_MAX, true},
                          insole_kde_fix_defaults,
                          insole_ml_fix_defaults};
     for (int i = 1; i < argc; i++) {
@@ -299,14 +302,18 @@ static options_t read_options(int argc, char **argv)
             options.survey_only = true;
         } else if (strcmp(argv[i], "--late") == 0) {
             options.late_s = number;
+        } else if (strcmp(argv[i], "--ahead") == 0) {
+            options.ahead_m = number;
+        } else if (strcmp(argv[i], "--folds") == 0) {
+            options.folds = (uint32_t)number;
         } else if (strcmp(argv[i], "--offset") == 0) {
             options.offset_db = number;
         } else if (strcmp(argv[i], "--spacing") == 0) {
-            options.spacing_m = number;
+            options.map.spacing_m = number;
         } else if (strcmp(argv[i], "--limit") == 0) {
             options.limit_m = number;
         } else if (strcmp(argv[i], "--keep") == 0) {
-            options.keep = (uint32_t)number;
+            options.map.keep = (uint32_t)number;
         } else {
             take_pair(&options, argv[i]);
         }
@@ -320,12 +327,12 @@ int main(int argc, char **argv)
     if (!mall_load(&mall)) {
         return SKIPPED;
     }
-    mall_place(&mall, options.late_s);
-    for (uint32_t fold = 0; options.survey_only && fold < FOLDS; fold++) {
+    mall_place(&mall, options.late_s, options.ahead_m);
+    for (uint32_t fold = 0; options.survey_only && fold < options.folds; fold++) {
         run_fold(&options, fold);
     }
     if (!options.survey_only) {
-        run_fold(&options, FOLDS);
+        run_fold(&options, options.folds);
     }
     print_table();
     return mean_of(&methods[KDE].waypoints) <= options.limit_m ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -23,14 +23,20 @@ typedef struct {
     double t_s, x_m, y_m;
 } mall_waypoint_t;
 
-/** Opens a file of a walk by the place of this source; NULL where there is none. */
+/** Where a file of a walk is, by the place of this source; its folder: of no name. */
+static inline void mall_path(char path[MALL_PATH], int walk, const char *name)
+{
+    const char *tests = strstr(__FILE__, "tests/support/mall.h");
+    int root = tests ? (int)(tests - __FILE__) : 0;
+    snprintf(path, MALL_PATH, "%.*s../shared/data/phone/mall_F1/p%03d%s%s", root, __FILE__, walk,
+             *name != '\0' ? "/" : "", name);
+}
+
+/** Opens a file of a walk; NULL where there is none. */
 static inline FILE *mall_open(int walk, const char *name)
 {
     char path[MALL_PATH];
-    const char *tests = strstr(__FILE__, "tests/support/mall.h");
-    int root = tests ? (int)(tests - __FILE__) : 0;
-    snprintf(path, sizeof path, "%.*s../shared/data/phone/mall_F1/p%03d/%s", root, __FILE__, walk,
-             name);
+    mall_path(path, walk, name);
     return fopen(path, "r");
 }
 

@@ -18,7 +18,7 @@ enum {
 };
 
 typedef struct {
-    double t_s, age_s; /* arrival; mean age of its readings */
+    double t_s, age_s; /* arrival; age of its youngest reading */
     uint32_t first, count;
     bool has_truth;  /* the walker was between two waypoints when it was heard */
     double x_m, y_m; /* there */
@@ -73,14 +73,14 @@ static inline void mall_read_scans(mall_t *mall, mall_walk_t *walk, FILE *file)
             continue;
         }
         if (mall->scan_count == walk->first_scan || mall->scans[mall->scan_count - 1u].t_s != t_s) {
-            mall_scan_t scan = {t_s, 0.0, mall->reading_count, 0u, false, 0.0, 0.0};
+            mall_scan_t scan = {t_s, age_s, mall->reading_count, 0u, false, 0.0, 0.0};
             mall->scans[mall->scan_count++] = scan;
         }
         mall_scan_t *scan = &mall->scans[mall->scan_count - 1u];
         insole_rss_t reading = {mall_ap(mall, name), (insole_real_t)dbm, (uint32_t)(age_s * 1e6)};
         mall->readings[mall->reading_count++] = reading;
         scan->count++;
-        scan->age_s += (age_s - scan->age_s) / scan->count;
+        scan->age_s = age_s < scan->age_s ? age_s : scan->age_s;
     }
     walk->scan_count = mall->scan_count - walk->first_scan;
     fclose(file);
@@ -119,16 +119,33 @@ static inline bool mall_load(mall_t *mall)
     return true;
 }
 
-/** Puts each scan where the walker was when it was heard, or `late_s` after, if it was no later
- *  than its arrival. */
-static inline void mall_place(mall_t *mall, double late_s)
+/** Moves a place so far ahead of the walker, in the direction walked from 1 s before to 1 s after;
+ *  a walker who stands, or whose way is not known so far, looks nowhere. */
+static inline void mall_look_ahead(const mall_walk_t *walk, double t_s, double ahead_m,
+                                   mall_scan_t *scan)
+{
+    double x0, y0, x1, y1;
+    if (mall_truth_at(walk, t_s - 1.0, &x0, &y0) && mall_truth_at(walk, t_s + 1.0, &x1, &y1)) {
+        double way_m = hypot(x1 - x0, y1 - y0);
+        scan->x_m += way_m < 0.6 ? 0.0 : ahead_m * (x1 - x0) / way_m;
+        scan->y_m += way_m < 0.6 ? 0.0 : ahead_m * (y1 - y0) / way_m;
+    }
+}
+
+/** Puts each scan so far ahead of where the walker was when it was heard, or `late_s` after, if it
+ *  was no later than its arrival. */
+static inline void mall_place(mall_t *mall, double late_s, double ahead_m)
 {
     for (uint32_t w = 0; w < mall->walk_count; w++) {
         const mall_walk_t *walk = &mall->walks[w];
         for (uint32_t i = 0; i < walk->scan_count; i++) {
             mall_scan_t *scan = &mall->scans[walk->first_scan + i];
             double age_s = scan->age_s > late_s ? scan->age_s - late_s : 0.0;
-            scan->has_truth = mall_truth_at(walk, scan->t_s - age_s, &scan->x_m, &scan->y_m);
+            double t_s = scan->t_s - age_s;
+            scan->has_truth = mall_truth_at(walk, t_s, &scan->x_m, &scan->y_m);
+            if (scan->has_truth) {
+                mall_look_ahead(walk, t_s, ahead_m, scan);
+            }
         }
     }
 }

@@ -49,12 +49,15 @@ static bool run(const arguments_t *arguments, failure_t *failure)
 {
     static site_t site;
     const char *plan = options_value(arguments, "plan"), *aps = options_value(arguments, "aps");
+    const char *radiomap = options_value(arguments, "radiomap");
     const char *name = options_has(arguments, "name") ? options_value(arguments, "name") : "site";
     if (arguments->operand_count > 0u) {
-        return failure_usage(failure, "insole pack: takes no operands, only --plan and --aps");
+        return failure_usage(failure,
+                             "insole pack: takes no operands, only --plan, --aps and --radiomap");
     }
-    if (plan == NULL && aps == NULL) {
-        return failure_usage(failure, "insole pack: nothing to pack: expected --plan or --aps");
+    if (plan == NULL && aps == NULL && radiomap == NULL) {
+        return failure_usage(failure,
+                             "insole pack: nothing to pack: expected --plan, --aps or --radiomap");
     }
     if (!options_has(arguments, "out")) {
         return failure_usage(failure, "insole pack: no --out: expected --out FILE");
@@ -65,7 +68,7 @@ static bool run(const arguments_t *arguments, failure_t *failure)
                              "and underscores, at most %d",
                              name, PACK_NAME_LENGTH);
     }
-    if (!site_open(&site, plan, aps, &insole_propagation_defaults, failure)) {
+    if (!site_open(&site, plan, aps, radiomap, &insole_propagation_defaults, failure)) {
         return false;
     }
     bool is_good = is_sound(&site, failure) && write_file(arguments, &site, name, failure);
@@ -76,13 +79,14 @@ static bool run(const arguments_t *arguments, failure_t *failure)
 static const option_t options[] = {
     {"plan", "FILE", "floor plan"},
     {"aps", "FILE", "access points"},
+    {"radiomap", "FILE", "fingerprints, as `insole radiomap` makes them"},
     {"name", "NAME", "what the names of the tables begin with; default site"},
     {"out", "FILE", "write C there; - is standard output"},
     {NULL, NULL, NULL}};
 
 const command_t command_pack = {
     "pack",
-    "--plan P --aps A --out FILE.c",
+    "--plan P --aps A --radiomap R --out FILE.c",
     "a building as constant C tables, ready for the flash of a device",
     "The plan comes with its grid built, so that the firmware needs no part that builds plans, "
     "and\n"
@@ -100,6 +104,12 @@ const command_t command_pack = {
     "  extern const insole_ap_t site_aps[];\n"
     "\n"
     "  insole_building_t building = {&propagation, site_aps, site_ap_count, &site_plan, NULL};\n"
+    "\n"
+    "Of a radio map it holds site_map, and site_map_ids: names in alphabetical order, so that a\n"
+    "device finds the number of what it hears by halving.\n"
+    "\n"
+    "  extern const insole_radio_map_t site_map;\n"
+    "  extern const char *const site_map_ids[];\n"
     "\n"
     "What the files do not tell is taken from the default settings.\n",
     options,

@@ -96,8 +96,8 @@ static bool run(const arguments_t *arguments, failure_t *failure)
         return failure_usage(failure, is_draw ? "insole plan draw: no --out: expected --out FILE"
                                               : "insole plan check: --out is of draw");
     }
-    if (!site_open(&site, arguments->operands[1], options_value(arguments, "aps"),
-                   &insole_propagation_defaults, failure)) {
+    if (!site_open_sketch(&site, arguments->operands[1], options_value(arguments, "aps"),
+                          &insole_propagation_defaults, failure)) {
         return false;
     }
     bool is_good = (is_draw ? draw : check)(arguments, &site, failure);

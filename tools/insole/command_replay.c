@@ -58,11 +58,7 @@ static bool is_input(const job_t *job, const session_t *session, const char *pat
     const char *truth = options_value(job->arguments, "truth");
     const char *config = options_value(job->arguments, "config");
     const site_t *site = job->request.site;
-    bool is_site =
-        site != NULL &&
-        ((site->plan_file.name != NULL && platform_is_same_file(site->plan_file.name, path)) ||
-         (site->ap_file.name != NULL && platform_is_same_file(site->ap_file.name, path)));
-    return session_reads(session, path) || is_site ||
+    return session_reads(session, path) || (site != NULL && site_is_file(site, path)) ||
            (truth != NULL && platform_is_same_file(truth, path)) ||
            (config != NULL && platform_is_same_file(config, path));
 }

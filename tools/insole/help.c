@@ -5,12 +5,19 @@
 
 #include "insole/insole.h"
 
-static const command_t *const commands[] = {&command_replay,   &command_score,
+static const command_t *const commands[] = {&command_replay,
+                                            &command_score,
 #ifdef INSOLE_HOST_HAS_SIMULATOR
-                                            &command_simulate, &command_reproduce,
+                                            &command_simulate,
+                                            &command_reproduce,
 #endif
-                                            &command_compare,  &command_calibrate, &command_config,
-                                            &command_plan,     &command_pack,      NULL};
+                                            &command_compare,
+                                            &command_calibrate,
+                                            &command_config,
+                                            &command_plan,
+                                            &command_pack,
+                                            &command_radiomap,
+                                            NULL};
 
 const command_t *const *help_commands(void)
 {

@@ -149,6 +149,9 @@ void notes_take(notes_t *notes, const replay_facts_t *facts)
         note_gravity(notes, facts);
         note_start(notes, facts);
     }
+    if (facts->fusion.leaves_radiomap) {
+        note(notes, "the radio map is left aside: the foot tracker takes none");
+    }
     if (!method_is_first_order(facts->method)) {
         note_radio(notes, facts);
         note_cloud(notes, facts);

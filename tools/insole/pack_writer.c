@@ -130,17 +130,24 @@ static void write_cells(const writer_t *writer)
     fputs("\n};\n\n", writer->file);
 }
 
-static void write_entries(const writer_t *writer)
+/* Whole numbers, whose value `at` tells. */
+static void write_table(const writer_t *writer, const char *type, const char *table, size_t count,
+                        uint32_t (*at)(const site_t *site, size_t i))
 {
     char item[NUMBER_ROOM];
-    size_t column = 0u, count = site_entry_count(&writer->site->plan);
-    fprintf(writer->file, "static const uint16_t %s_entries[%lu] = {", writer->name,
+    size_t column = 0u;
+    fprintf(writer->file, "static const %s %s_%s[%lu] = {", type, writer->name, table,
             (unsigned long)count);
     for (size_t i = 0u; i < count; i++) {
-        snprintf(item, sizeof item, "%u,", writer->site->plan.entries[i]);
+        snprintf(item, sizeof item, "%lu,", (unsigned long)at(writer->site, i));
         write_item(writer->file, item, &column);
     }
     fputs("\n};\n\n", writer->file);
+}
+
+static uint32_t entry_at(const site_t *site, size_t i)
+{
+    return site->plan.entries[i];
 }
 
 static void write_plan(const writer_t *writer)
@@ -155,7 +162,7 @@ static void write_plan(const writer_t *writer)
     char buffer[NUMBER_ROOM + 16];
     write_walls(writer);
     write_cells(writer);
-    write_entries(writer);
+    write_table(writer, "uint16_t", "entries", site_entry_count(plan), entry_at);
     fprintf(writer->file, "const insole_floor_plan_t %s_plan = {\n", writer->name);
     for (size_t i = 0u; i < sizeof reals / sizeof reals[0]; i++) {
         fprintf(writer->file, "    .%s = %s,\n", reals[i].name, real_text(buffer, reals[i].value));
@@ -169,6 +176,18 @@ static void write_plan(const writer_t *writer)
 }
 
 /* ---- access points ---------------------------------------------------------------------- */
+
+static void write_names(const writer_t *writer, const char *table, const id_table_t *ids)
+{
+    fprintf(writer->file, "const char *const %s_%s[%lu] = {\n", writer->name, table,
+            (unsigned long)ids->count);
+    for (size_t i = 0u; i < ids->count; i++) {
+        fputs("    ", writer->file);
+        write_string(writer->file, ids->names[i]);
+        fputs(",\n", writer->file);
+    }
+    fputs("};\n", writer->file);
+}
 
 static void write_aps(const writer_t *writer)
 {
@@ -185,13 +204,72 @@ static void write_aps(const writer_t *writer)
         write_reals(file, values, 6u);
         fputs(",\n", file);
     }
-    fprintf(file, "};\n\nconst char *const %s_ap_ids[%lu] = {\n", writer->name, count);
-    for (size_t i = 0u; i < aps->count; i++) {
-        fputs("    ", file);
-        write_string(file, aps->ids.names[i]);
-        fputs(",\n", file);
+    fputs("};\n\n", file);
+    write_names(writer, "ap_ids", &aps->ids);
+}
+
+/* ---- fingerprints ----------------------------------------------------------------------- */
+
+#define MAP_COLUMN(name, member)                                                                   \
+    static uint32_t name(const site_t *site, size_t i)                                             \
+    {                                                                                              \
+        return site->radiomap_file.map.member[i];                                                  \
     }
-    fputs("};\n", file);
+
+MAP_COLUMN(first_at, first)
+MAP_COLUMN(visits_at, visits)
+MAP_COLUMN(ap_at, aps)
+MAP_COLUMN(below_at, below)
+MAP_COLUMN(spread_at, spread)
+MAP_COLUMN(count_at, counts)
+
+static void write_spots(const writer_t *writer)
+{
+    const insole_radio_map_t *map = &writer->site->radiomap_file.map;
+    fprintf(writer->file, "static const insole_spot_t %s_map_spots[%lu] = {\n", writer->name,
+            (unsigned long)map->point_count);
+    for (uint32_t i = 0u; i < map->point_count; i++) {
+        const insole_real_t values[2] = {map->spots[i].x_m, map->spots[i].y_m};
+        fputs("    ", writer->file);
+        write_reals(writer->file, values, 2u);
+        fputs(",\n", writer->file);
+    }
+    fputs("};\n\n", writer->file);
+}
+
+static void write_radiomap(const writer_t *writer)
+{
+    const insole_radio_map_t *map = &writer->site->radiomap_file.map;
+    size_t points = map->point_count, entries = map->first[points];
+    const struct {
+        const char *type, *member, *table;
+        size_t count; /* 0: the map does not know */
+        uint32_t (*at)(const site_t *site, size_t i);
+    } tables[] = {
+        {"uint32_t", "first", "map_first", points + 1u, first_at},
+        {"uint8_t", "visits", "map_visits", map->visits != NULL ? points : 0u, visits_at},
+        {"uint16_t", "aps", "map_aps", entries, ap_at},
+        {"uint8_t", "below", "map_below", entries, below_at},
+        {"uint8_t", "spread", "map_spread", map->spread != NULL ? entries : 0u, spread_at},
+        {"uint8_t", "counts", "map_counts", map->counts != NULL ? entries : 0u, count_at}};
+    write_spots(writer);
+    for (size_t i = 0u; i < sizeof tables / sizeof tables[0]; i++) {
+        if (tables[i].count > 0u) {
+            write_table(writer, tables[i].type, tables[i].table, tables[i].count, tables[i].at);
+        }
+    }
+    fprintf(writer->file,
+            "const insole_radio_map_t %s_map = {\n    .point_count = %lu,\n    .ap_count = %lu,\n"
+            "    .spots = %s_map_spots,\n",
+            writer->name, (unsigned long)points, (unsigned long)map->ap_count, writer->name);
+    for (size_t i = 0u; i < sizeof tables / sizeof tables[0]; i++) {
+        if (tables[i].count > 0u) {
+            fprintf(writer->file, "    .%s = %s_%s,\n", tables[i].member, writer->name,
+                    tables[i].table);
+        }
+    }
+    fputs("};\n\n", writer->file);
+    write_names(writer, "map_ids", &writer->site->radiomap_file.ids);
 }
 
 /* ---- file ------------------------------------------------------------------------------- */
@@ -210,25 +288,54 @@ static void write_declarations(const writer_t *writer)
                 "extern const char *const %s_ap_ids[%lu];\n",
                 writer->name, writer->name, count, writer->name, count);
     }
+    if (site_has_radiomap(writer->site)) {
+        fprintf(
+            file,
+            "extern const insole_radio_map_t %s_map;\nextern const char *const %s_map_ids[%lu];\n",
+            writer->name, writer->name, (unsigned long)writer->site->radiomap_file.ids.count);
+    }
+}
+
+/* The files that it was made from. */
+static void write_sources(const writer_t *writer)
+{
+    const site_t *site = writer->site;
+    const char *const names[] = {
+        site->building.plan != NULL ? site->plan_file.name : NULL,
+        site->ap_file.count > 0u ? site->ap_file.name : NULL,
+        site_has_radiomap(site) ? site->radiomap_file.name : NULL,
+    };
+    bool is_first = true;
+    for (size_t i = 0u; i < sizeof names / sizeof names[0]; i++) {
+        if (names[i] != NULL) {
+            fputs(is_first ? "" : " and ", writer->file);
+            write_comment(writer->file, names[i]);
+            is_first = false;
+        }
+    }
 }
 
 static void write_head(const writer_t *writer)
 {
     const site_t *site = writer->site;
     fputs("/* Made by `insole pack` from ", writer->file);
-    write_comment(writer->file, site->building.plan != NULL ? site->plan_file.name : "");
-    fputs(site->building.plan != NULL && site->ap_file.count > 0u ? " and " : "", writer->file);
-    write_comment(writer->file, site->ap_file.count > 0u ? site->ap_file.name : "");
+    write_sources(writer);
     fprintf(writer->file,
             ": change those, not this.\n"
-            " * The plan takes %lu bytes, the access points %lu and their ids. */\n",
+            " * The plan takes %lu bytes, the access points %lu and their ids",
             (unsigned long)(site->building.plan != NULL ? site_plan_bytes(&site->plan) : 0u),
             (unsigned long)(site->ap_file.count * sizeof *site->ap_file.aps));
-    fputs("#include \"insole/place/floor_plan.h\"\n"
-          "#include \"insole/place/propagation.h\"\n"
-          "\n"
-          "/* Say this where the tables are used. */\n",
-          writer->file);
+    if (site_has_radiomap(site)) {
+        fprintf(writer->file, ", the radio map %lu and its ids",
+                (unsigned long)radiomap_file_bytes(&site->radiomap_file.map));
+    }
+    fprintf(writer->file,
+            ". */\n"
+            "#include \"insole/place/floor_plan.h\"\n"
+            "#include \"insole/place/propagation.h\"\n%s"
+            "\n"
+            "/* Say this where the tables are used. */\n",
+            site_has_radiomap(site) ? "#include \"insole/place/radio_map.h\"\n" : "");
     write_declarations(writer);
     putc('\n', writer->file);
 }
@@ -236,14 +343,19 @@ static void write_head(const writer_t *writer)
 void pack_write(FILE *file, const site_t *site, const char *name)
 {
     const writer_t writer = {file, site, name};
+    const struct {
+        bool is_there;
+        void (*write)(const writer_t *writer);
+    } parts[] = {{site->building.plan != NULL, write_plan},
+                 {site->ap_file.count > 0u, write_aps},
+                 {site_has_radiomap(site), write_radiomap}};
+    bool is_first = true;
     write_head(&writer);
-    if (site->building.plan != NULL) {
-        write_plan(&writer);
-    }
-    if (site->building.plan != NULL && site->ap_file.count > 0u) {
-        putc('\n', file);
-    }
-    if (site->ap_file.count > 0u) {
-        write_aps(&writer);
+    for (size_t i = 0u; i < sizeof parts / sizeof parts[0]; i++) {
+        if (parts[i].is_there) {
+            fputs(is_first ? "" : "\n", file);
+            parts[i].write(&writer);
+            is_first = false;
+        }
     }
 }

@@ -32,12 +32,12 @@ static bool open_sites(path_readings_t *path, const path_site_t *request, failur
     path->settings.height_m = (insole_real_t)request->height_m;
     path->settings.wall_db = (insole_real_t)0.0;
     path->other_settings.wall_db = (insole_real_t)1.0;
-    if (!site_open(&path->site, request->plan, request->aps, &path->settings, failure)) {
+    if (!site_open_sketch(&path->site, request->plan, request->aps, &path->settings, failure)) {
         return false;
     }
     path->ap_count = path->site.ap_file.count;
     return !has_untold_walls(&path->site.plan_file) ||
-           site_open(&path->other, request->plan, NULL, &path->other_settings, failure);
+           site_open_sketch(&path->other, request->plan, NULL, &path->other_settings, failure);
 }
 
 /* ---- one reading ------------------------------------------------------------------------ */

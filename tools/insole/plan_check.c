@@ -132,16 +132,6 @@ static void check_line(findings_t *findings, const plan_line_t *line)
 
 /* ---- lines and their outline ------------------------------------------------------------ */
 
-static bool has_outline(const plan_file_t *plan, size_t floor)
-{
-    for (size_t i = 0u; i < plan->count; i++) {
-        if (plan->lines[i].floor == floor && plan->lines[i].kind == INSOLE_LINE_OUTLINE) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static void check_hole_inside(findings_t *findings, const plan_file_t *plan,
                               const plan_line_t *hole)
 {
@@ -177,7 +167,7 @@ static void check_wall_inside(findings_t *findings, const plan_file_t *plan,
 
 static void check_inside(findings_t *findings, const plan_file_t *plan, const plan_line_t *line)
 {
-    if (!has_outline(plan, line->floor)) {
+    if (!plan_file_has_outline(plan, line->floor)) {
         return;
     }
     if (line->kind == INSOLE_LINE_HOLE) {
@@ -281,7 +271,7 @@ static void check_floors(findings_t *findings, const plan_file_t *plan)
         ADD(WARNING, plan->floors[1].line, "%u floors: only the first, %d, is used",
             (unsigned)plan->floor_count, (int)plan->floors[0].number);
     }
-    if (!has_outline(plan, 0u)) {
+    if (!plan_file_has_outline(plan, 0u)) {
         ADD(ERROR, 0u, "no outline: expected a ring around where one can walk");
     }
 }
@@ -304,7 +294,7 @@ static unsigned long nearest_line(const plan_file_t *plan, plan_point_t place)
 
 static void check_parts(findings_t *findings, const plan_file_t *plan, const plan_parts_t *parts)
 {
-    if (!has_outline(plan, 0u)) {
+    if (!plan_file_has_outline(plan, 0u)) {
         return;
     }
     if (!(parts->walkable_m2 > 0.0)) {

@@ -313,6 +313,16 @@ const char *plan_line_kind_name(insole_line_kind_t kind)
     return kind == INSOLE_LINE_OUTLINE ? "outline" : kind == INSOLE_LINE_HOLE ? "hole" : "wall";
 }
 
+bool plan_file_has_outline(const plan_file_t *plan, size_t floor)
+{
+    for (size_t i = 0u; i < plan->count; i++) {
+        if (plan->lines[i].kind == INSOLE_LINE_OUTLINE && plan->lines[i].floor == floor) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void plan_file_free(plan_file_t *plan)
 {
     for (size_t i = 0u; i < plan->count; i++) {

@@ -65,6 +65,9 @@ plan_point_t plan_line_end(const plan_line_t *line, size_t i);
 
 const char *plan_line_kind_name(insole_line_kind_t kind);
 
+/** Has a floor, counted from 0, a ring around where one can walk? */
+bool plan_file_has_outline(const plan_file_t *plan, size_t floor);
+
 void plan_file_free(plan_file_t *plan);
 
 #endif

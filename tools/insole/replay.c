@@ -231,6 +231,7 @@ static void gather_fusion(const run_t *run, replay_fusion_t *facts)
     facts->particles = particles->counts;
     facts->has_offset = particles->field.learned > 0u;
     facts->offset_db = (double)particles->field.offset_db;
+    facts->leaves_radiomap = run->request->leaves_radiomap;
     count_ids(run, facts);
     if (particles->has_fix) {
         copy_cloud(&estimator->memory, &facts->cloud);

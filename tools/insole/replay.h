@@ -22,6 +22,7 @@ typedef struct {
     uint32_t particles;                 /**< of the cloud */
     uint64_t seed;                      /**< of its random numbers */
     bool no_rss, no_range;              /**< those records do not count */
+    bool leaves_radiomap;               /**< fingerprints were told that nobody takes */
     const char *accel_unit, *gyro_unit; /**< NULL: m/s^2, rad/s */
     double rate_hz;                     /**< rows per second; 0: one per fix */
     bool is_smooth;                     /**< what comes after a moment counts for it too */
@@ -43,6 +44,7 @@ typedef struct {
 typedef struct {
     bool is_fused; /**< building or radio made the position */
     unsigned long walls, aps;
+    bool leaves_radiomap;           /**< fingerprints were told that nobody takes */
     unsigned long ids, unknown_ids; /**< of access points in the logs */
     radio_counts_t radio;
     insole_fusion_counts_t waits; /**< of what radio told */

@@ -113,6 +113,22 @@ static bool apply_cloud(const arguments_t *arguments, replay_request_t *request,
     return true;
 }
 
+/* Fingerprints alone tell the foot tracker nothing. */
+static bool is_of_use(const site_t *site)
+{
+    return site->building.plan != NULL || site->building.ap_count > 0u;
+}
+
+static void close_site(replay_request_t *request)
+{
+    if (request->site != NULL) {
+        site_t *site = (site_t *)request->site;
+        site_free(site);
+        free(site);
+    }
+    request->site = NULL;
+}
+
 /* What is told counts; of what is not, the folders that are replayed may hold it. */
 static bool open_site(const arguments_t *arguments, replay_request_t *request, failure_t *failure)
 {
@@ -121,11 +137,16 @@ static bool open_site(const arguments_t *arguments, replay_request_t *request, f
         return false;
     }
     bool is_good = true;
-    if (found.plan != NULL || found.aps != NULL) {
+    if (found.plan != NULL || found.aps != NULL || found.radiomap != NULL) {
         site_t *site = memory_new(1u, sizeof *site);
         request->site = site;
-        is_good = site_open(site, found.plan, found.aps, &request->settings.propagation, failure);
+        is_good = site_open(site, found.plan, found.aps, found.radiomap,
+                            &request->settings.propagation, failure);
+        if (is_good && !is_of_use(site)) {
+            close_site(request);
+        }
     }
+    request->leaves_radiomap = options_has(arguments, "radiomap");
     site_folder_free(&found);
     return is_good;
 }
@@ -207,10 +228,5 @@ bool replay_options_check(const arguments_t *arguments, const replay_request_t *
 
 void replay_options_free(replay_request_t *request)
 {
-    if (request->site != NULL) {
-        site_t *site = (site_t *)request->site;
-        site_free(site);
-        free(site);
-    }
-    request->site = NULL;
+    close_site(request);
 }

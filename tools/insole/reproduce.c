@@ -85,7 +85,7 @@ static bool open_walk(reproduction_t *reproduction, failure_t *failure)
     char *plan = platform_join(reproduction->folder, "plan.csv");
     char *aps = platform_join(reproduction->folder, "aps.csv");
     char *truth = platform_join(reproduction->folder, "truth.csv");
-    bool is_good = site_open(&reproduction->site, plan, aps,
+    bool is_good = site_open(&reproduction->site, plan, aps, NULL,
                              &reproduction->our_settings.propagation, failure) &&
                    read_truth(reproduction, truth, failure);
     free(plan);

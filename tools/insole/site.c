@@ -95,8 +95,16 @@ static bool build_plan(site_t *site, failure_t *failure)
     return site->building.plan != NULL;
 }
 
-bool site_open(site_t *site, const char *plan_path, const char *aps_path,
-               const insole_propagation_config_t *propagation, failure_t *failure)
+/* Without one nobody could be anywhere. */
+static bool check_outline(const site_t *site, failure_t *failure)
+{
+    return site->building.plan == NULL || plan_file_has_outline(&site->plan_file, 0u) ||
+           failure_input(failure, "%s: no outline: expected a ring around where one can walk",
+                         site->plan_file.name);
+}
+
+bool site_open_sketch(site_t *site, const char *plan_path, const char *aps_path,
+                      const insole_propagation_config_t *propagation, failure_t *failure)
 {
     memset(site, 0, sizeof *site);
     site->building.propagation = propagation;
@@ -113,11 +121,34 @@ bool site_open(site_t *site, const char *plan_path, const char *aps_path,
     return true;
 }
 
+bool site_open(site_t *site, const char *plan_path, const char *aps_path, const char *radiomap_path,
+               const insole_propagation_config_t *propagation, failure_t *failure)
+{
+    bool is_good =
+        site_open_sketch(site, plan_path, aps_path, propagation, failure) &&
+        check_outline(site, failure) &&
+        (radiomap_path == NULL || radiomap_file_read(&site->radiomap_file, radiomap_path, failure));
+    if (!is_good) {
+        site_free(site);
+    }
+    return is_good;
+}
+
+bool site_has_radiomap(const site_t *site)
+{
+    return site->radiomap_file.map.point_count > 0u;
+}
+
 bool site_is_file(const site_t *site, const char *path)
 {
-    const char *plan = site->plan_file.name, *aps = site->ap_file.name;
-    return (plan != NULL && platform_is_same_file(plan, path)) ||
-           (aps != NULL && platform_is_same_file(aps, path));
+    const char *const names[] = {site->plan_file.name, site->ap_file.name,
+                                 site->radiomap_file.name};
+    for (size_t i = 0u; i < sizeof names / sizeof names[0]; i++) {
+        if (names[i] != NULL && platform_is_same_file(names[i], path)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 size_t site_cell_count(const insole_floor_plan_t *plan)
@@ -140,6 +171,7 @@ void site_free(site_t *site)
 {
     plan_file_free(&site->plan_file);
     ap_file_free(&site->ap_file);
+    radiomap_file_free(&site->radiomap_file);
     free_memory(&site->memory);
     memset(site, 0, sizeof *site);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "site_folder.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,7 +29,8 @@ static char *find_in(const char *folder, const char *name)
 static bool find(char **path, const char *what, const arguments_t *arguments, failure_t *failure)
 {
     const char *told = options_value(arguments, what);
-    const char *name = strcmp(what, "plan") == 0 ? "plan.csv" : "aps.csv";
+    char name[32];
+    snprintf(name, sizeof name, "%s.csv", what);
     *path = told != NULL ? memory_text(told) : NULL;
     for (size_t i = 0u; i < arguments->operand_count && told == NULL; i++) {
         char *found = find_in(arguments->operands[i], name);
@@ -47,7 +49,8 @@ bool site_folder_find(site_folder_t *found, const arguments_t *arguments, failur
 {
     memset(found, 0, sizeof *found);
     bool is_good = find(&found->plan, "plan", arguments, failure) &&
-                   find(&found->aps, "aps", arguments, failure);
+                   find(&found->aps, "aps", arguments, failure) &&
+                   find(&found->radiomap, "radiomap", arguments, failure);
     if (!is_good) {
         site_folder_free(found);
     }
@@ -58,5 +61,6 @@ void site_folder_free(site_folder_t *found)
 {
     free(found->plan);
     free(found->aps);
+    free(found->radiomap);
     memset(found, 0, sizeof *found);
 }

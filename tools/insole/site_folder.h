@@ -1,7 +1,7 @@
-/** @file site_folder.h  Which plan and which access points belong to a replay.
+/** @file site_folder.h  Which plan, access points and radio map belong to a replay.
  *
- *  What --plan and --aps tell counts; of what they do not, a folder among the logs may hold it, as
- *  plan.csv and aps.csv.
+ *  What --plan, --aps and --radiomap tell counts; of what they do not, a folder among the logs may
+ *  hold it, as plan.csv, aps.csv and radiomap.csv.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -12,7 +12,7 @@
 
 /** Paths; NULL: there is none. */
 typedef struct {
-    char *plan, *aps;
+    char *plan, *aps, *radiomap;
 } site_folder_t;
 
 /** Fails when several folders have one. A failure leaves nothing to free. */

@@ -29,6 +29,11 @@ typedef struct {
     size_t count, room;
 } reader_t;
 
+static int64_t to_us(double s)
+{
+    return (int64_t)llround(1e6 * s);
+}
+
 static void keep_signal(reader_t *reader, const record_t *record)
 {
     double age_s = isfinite(record->value[1]) ? record->value[1] : 0.0;
@@ -37,7 +42,7 @@ static void keep_signal(reader_t *reader, const record_t *record)
         return;
     }
     const signal_t signal = {
-        record->t_us, record->t_us - (int64_t)llround(1e6 * age_s),
+        record->t_us, record->t_us - to_us(age_s),
         id_table_number(&reader->survey->ids, reader->session.ids.names[record->id]),
         record->value[0]};
     reader->signals =
@@ -98,25 +103,64 @@ static int compare_signals(const void *a, const void *b)
     return (s->id > t->id) - (s->id < t->id);
 }
 
+/* Has it a place? Then that and the direction walked there. */
+static bool place_reading(const reader_t *reader, int64_t t_us, survey_reading_t *reading)
+{
+    const survey_rule_t *rule = &reader->survey->rule;
+    if (!track_place(&reader->truth, t_us, &reading->x_m, &reading->y_m)) {
+        return false;
+    }
+    find_heading(&reader->truth, t_us, reading);
+    reading->x_m += rule->ahead_m * reading->cos_heading;
+    reading->y_m += rule->ahead_m * reading->sin_heading;
+    return true;
+}
+
+static int64_t youngest_of(const signal_t *signals, size_t count)
+{
+    int64_t youngest_us = signals[0].heard_us;
+    for (size_t i = 1u; i < count; i++) {
+        youngest_us = signals[i].heard_us > youngest_us ? signals[i].heard_us : youngest_us;
+    }
+    return youngest_us;
+}
+
+/* Adds one scan: `count` signals of one time. */
+static void place_scan(reader_t *reader, const signal_t *signals, size_t count)
+{
+    survey_t *survey = reader->survey;
+    const survey_rule_t *rule = &survey->rule;
+    int64_t youngest_us = youngest_of(signals, count);
+    bool is_begun = false;
+    for (size_t i = 0u; i < count; i++) {
+        survey_reading_t reading = {signals[i].id, signals[i].dbm, 0.0, 0.0, 0.0, 0.0};
+        int64_t heard_us = rule->whole_scans ? youngest_us : signals[i].heard_us;
+        int64_t late_us = heard_us + to_us(rule->late_s);
+        int64_t at_us = late_us < signals[i].t_us ? late_us : signals[i].t_us;
+        if (rule->oldest_s > 0.0 && youngest_us - signals[i].heard_us > to_us(rule->oldest_s)) {
+            survey->stale++;
+        } else if (!place_reading(reader, at_us, &reading)) {
+            survey->outside++;
+        } else {
+            if (!is_begun) {
+                add_scan(survey);
+            }
+            is_begun = true;
+            add_reading(survey, &reading);
+        }
+    }
+}
+
 static void place_signals(reader_t *reader)
 {
-    const signal_t *last = NULL;
     if (reader->count > 1u) {
         qsort(reader->signals, reader->count, sizeof *reader->signals, compare_signals);
     }
-    for (size_t i = 0u; i < reader->count; i++) {
-        const signal_t *signal = &reader->signals[i];
-        survey_reading_t reading = {signal->id, signal->dbm, 0.0, 0.0, 0.0, 0.0};
-        if (!track_place(&reader->truth, signal->heard_us, &reading.x_m, &reading.y_m)) {
-            reader->survey->outside++;
-            continue;
+    for (size_t i = 0u, end; i < reader->count; i = end) {
+        for (end = i; end < reader->count && reader->signals[end].t_us == reader->signals[i].t_us;
+             end++) {
         }
-        find_heading(&reader->truth, signal->heard_us, &reading);
-        if (last == NULL || last->t_us != signal->t_us) {
-            add_scan(reader->survey);
-        }
-        add_reading(reader->survey, &reading);
-        last = signal;
+        place_scan(reader, &reader->signals[i], end - i);
     }
 }
 

@@ -2,7 +2,8 @@
  *
  *  Every session stands for itself. Readings of equal t are one scan. A reading lies at the truth
  *  interpolated at the time it was heard, t - age; outside the truth it is left out and counted.
- *  Frame m: map, metres.
+ *  For fingerprints a scan lies as a whole where its youngest reading does (radio_group.h): what is
+ *  heard together stays together. Frame m: map, metres.
  *
  *      survey_t survey = {0};
  *      for each session: if (!survey_add(&survey, path, &failure)) ...
@@ -30,8 +31,17 @@ typedef struct {
     size_t first, count; /**< readings; one at least */
 } survey_scan_t;
 
+/** Where and when a reading was heard; all zeros: each at t - age. */
+typedef struct {
+    bool whole_scans; /**< all of a scan where its youngest reading was heard */
+    double oldest_s;  /**< then: what was heard longer before that is left out; 0: nothing is */
+    double late_s;    /**< heard so much after t - age tells, but not after t */
+    double ahead_m;   /**< what is heard speaks of a place so far ahead of the walker */
+} survey_rule_t;
+
 /** An empty survey is all zeros. */
 typedef struct {
+    survey_rule_t rule; /**< to be set before the first session */
     id_table_t ids;
     survey_reading_t *readings;
     survey_scan_t *scans;
@@ -39,6 +49,7 @@ typedef struct {
     size_t sessions;
     unsigned long outside; /**< readings left out: there is no truth at their time */
     unsigned long unheard; /**< readings left out: no number */
+    unsigned long stale;   /**< readings left out: too old for their scan */
 } survey_t;
 
 /** @param path  of a session: a log, or a folder of logs
