@@ -29,16 +29,15 @@ bool insole_phone_radio_can_hear(const insole_phone_radio_t *radio)
     return radio->solver.calls && radio->map;
 }
 
-/* The readings' mean age counts, less what a radio is late by. */
+/* The age of the youngest reading counts, less what a radio is late by. */
 static uint64_t heard_at(const insole_phone_radio_t *radio, const insole_scan_t *scan)
 {
-    uint64_t sum_us = 0u;
-    for (uint32_t i = 0u; i < scan->count; i++) {
-        uint64_t age_us = scan->readings[i].age_us;
-        sum_us += age_us > radio->late_us ? age_us - radio->late_us : 0u;
+    uint64_t age_us = scan->count > 0u ? scan->readings[0].age_us : 0u;
+    for (uint32_t i = 1u; i < scan->count; i++) {
+        age_us = scan->readings[i].age_us < age_us ? scan->readings[i].age_us : age_us;
     }
-    uint64_t mean_us = scan->count > 0u ? sum_us / scan->count : 0u;
-    return scan->t_us > mean_us ? scan->t_us - mean_us : 0u;
+    age_us = age_us > radio->late_us ? age_us - radio->late_us : 0u;
+    return scan->t_us > age_us ? scan->t_us - age_us : 0u;
 }
 
 insole_status_t insole_phone_radio_hear(insole_phone_radio_t *radio, const insole_scan_t *scan,

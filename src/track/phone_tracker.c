@@ -79,17 +79,15 @@ static bool pace_of(const insole_phone_tracker_t *t, const insole_footfall_t *fo
 
 static void take_footfall(insole_phone_tracker_t *t, const insole_footfall_t *footfall)
 {
-    insole_phone_step_t step = {*footfall, {ZERO, ZERO, ZERO, ZERO}};
-    if (!pace_of(t, footfall, &step.pace)) {
+    insole_pace_t pace;
+    if (!pace_of(t, footfall, &pace)) {
         return;
     }
-    (void)insole_phone_way_go(&t->way, footfall, insole_pace_way(&step.pace, ZERO));
-    t->step = step;
-    t->has_step = true;
+    (void)insole_phone_way_go(&t->way, footfall, insole_pace_way(&pace, ZERO));
     t->coasting = false;
     t->counts.steps++;
     if (has_filter(&t->parts)) {
-        (void)insole_phone_place_step(&t->place, footfall->end_us, &step.pace);
+        (void)insole_phone_place_step(&t->place, footfall->end_us, &pace);
     }
 }
 
@@ -387,19 +385,5 @@ insole_status_t insole_phone_tracker_next(insole_phone_tracker_t *tracker, insol
     }
     *fix = tracker->fix;
     tracker->has_fix = false;
-    return INSOLE_OK;
-}
-
-insole_status_t insole_phone_tracker_step(insole_phone_tracker_t *tracker,
-                                          insole_phone_step_t *step)
-{
-    if (!tracker || !step) {
-        return INSOLE_ERR_NULL;
-    }
-    if (!tracker->has_step) {
-        return INSOLE_ERR_STATE;
-    }
-    *step = tracker->step;
-    tracker->has_step = false;
     return INSOLE_OK;
 }

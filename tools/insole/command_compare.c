@@ -52,7 +52,7 @@ static bool run_trial(contest_t *contest, const char *method, failure_t *failure
     replay_sink_t sink = {track, NULL, keep_row, NULL};
     contest->count++;
     trial->method = method;
-    if (!method_parse(method, &request.method, failure) ||
+    if (!method_parse(request.tracker, method, &request.method, failure) ||
         !replay_options_check(contest->arguments, &request, failure) ||
         !replay_run(&request, &sink, &trial->facts, failure)) {
         return false;
@@ -107,7 +107,8 @@ static void print_trial(const trial_t *trial)
 
 static void print_table(const contest_t *contest)
 {
-    printf("%-12s %7s %8s", "method", "strides", "walked m");
+    printf("%-12s %7s %8s", "method",
+           contest->request.tracker == TRACKER_PHONE ? "steps" : "strides", "walked m");
     if (contest->trials[0].has_score) {
         printf(" %8s %8s %8s %8s %8s %8s %8s %8s", "mean m", "rms m", "50 % m", "95 % m", "max m",
                "end m", "end %", "z rms m");
@@ -206,7 +207,9 @@ static bool run(const arguments_t *arguments, failure_t *failure)
 }
 
 static const option_t options[] = {
-    {"methods", "A,B,...", "the methods to compare: " METHOD_NAMES},
+    {"methods", "A,B,...",
+     "the methods to compare: " METHOD_FOOT_NAMES ";\n"
+     "with --tracker phone:\n" METHOD_PHONE_NAMES},
     REPLAY_OPTIONS,
     {"rate", "HZ", "rows of the tracks per second (default 10); 0: one per reading"},
     {"plot", "FILE", "draw all tracks, and the truth if there is one, as SVG"},

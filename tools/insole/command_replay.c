@@ -144,8 +144,9 @@ static void describe(const summary_t *summary, char *text, size_t room)
     char walked[NUMBER_ROOM], rms[NUMBER_ROOM], end[NUMBER_ROOM];
     const score_t *score = summary->score;
     int length = snprintf(
-        text, room, "%s tracker, method %s, %s m in %lu strides", summary->tracker, summary->method,
-        number_fixed(walked, summary->facts->walked_m, 1), summary->facts->strides);
+        text, room, "%s tracker, method %s, %s m in %lu %s", summary->tracker, summary->method,
+        number_fixed(walked, summary->facts->walked_m, 1), summary->facts->strides,
+        method_tracker(summary->facts->method) == TRACKER_PHONE ? "steps" : "strides");
     if (score != NULL && length > 0 && (size_t)length < room) {
         snprintf(text + length, room - (size_t)length, "; track %s: rms %s m, end %s m",
                  score_alignment_text(score->alignment), number_fixed(rms, score->rms_m, 2),
@@ -179,8 +180,8 @@ static bool draw(const job_t *job, const summary_t *summary, failure_t *failure)
 static bool report(job_t *job, failure_t *failure)
 {
     score_t score;
-    summary_t summary = {"foot", method_name(job->request.method), &job->facts, NULL,
-                         job->request.site};
+    summary_t summary = {tracker_name(job->request.tracker), method_name(job->request.method),
+                         &job->facts, NULL, job->request.site};
     if (job->keeps_rows && scoring_score(&job->scoring, &job->facts, &job->rows, &score)) {
         summary.score = &score;
     }

@@ -29,17 +29,23 @@
 #define RSS_FIX_ROW(kind, name, ...)     ROW(rss_fix, fusion.rss_fix, kind, name, __VA_ARGS__)
 #define RANGE_FIX_ROW(kind, name, ...)   ROW(range_fix, fusion.range_fix, kind, name, __VA_ARGS__)
 
-#define PHONE_TRACKER_ROW(kind, name, ...) ROW(phone_tracker, phone.tracker, kind, name, __VA_ARGS__)
-#define PHONE_PLACE_ROW(kind, name, ...) ROW(phone_place, phone.tracker.place, kind, name, __VA_ARGS__)
-#define PHONE_COMPASS_ROW(kind, name, ...) ROW(phone_compass, phone.tracker.compass, kind, name, __VA_ARGS__)
+#define PHONE_TRACKER_ROW(kind, name, ...)                                                         \
+    ROW(phone_tracker, phone.tracker, kind, name, __VA_ARGS__)
+#define PHONE_PLACE_ROW(kind, name, ...)                                                           \
+    ROW(phone_place, phone.tracker.place, kind, name, __VA_ARGS__)
+#define PHONE_COMPASS_ROW(kind, name, ...)                                                         \
+    ROW(phone_compass, phone.tracker.compass, kind, name, __VA_ARGS__)
 #define ATTITUDE_ROW(kind, name, ...) ROW(attitude, phone.tracker.attitude, kind, name, __VA_ARGS__)
-#define STEP_ROW(kind, name, ...) ROW(step, phone.tracker.step, kind, name, __VA_ARGS__)
-#define STEP_LENGTH_ROW(kind, name, ...) ROW(step_length, phone.tracker.step_length, kind, name, __VA_ARGS__)
-#define AUTO_START_ROW(kind, name, ...) ROW(auto_start, phone.tracker.auto_start, kind, name, __VA_ARGS__)
-#define STEP_FUSION_ROW(kind, name, ...) ROW(step_fusion, phone.step_fusion, kind, name, __VA_ARGS__)
+#define STEP_ROW(kind, name, ...)     ROW(step, phone.tracker.step, kind, name, __VA_ARGS__)
+#define STEP_LENGTH_ROW(kind, name, ...)                                                           \
+    ROW(step_length, phone.tracker.step_length, kind, name, __VA_ARGS__)
+#define AUTO_START_ROW(kind, name, ...)                                                            \
+    ROW(auto_start, phone.tracker.auto_start, kind, name, __VA_ARGS__)
+#define STEP_FUSION_ROW(kind, name, ...)                                                           \
+    ROW(step_fusion, phone.step_fusion, kind, name, __VA_ARGS__)
 #define ML_SHIFT_ROW(kind, name, ...) ROW(ml_shift, phone.ml_shift, kind, name, __VA_ARGS__)
-#define KDE_FIX_ROW(kind, name, ...) ROW(kde_fix, phone.kde_fix, kind, name, __VA_ARGS__)
-#define ML_FIX_ROW(kind, name, ...) ROW(ml_fix, phone.ml_fix, kind, name, __VA_ARGS__)
+#define KDE_FIX_ROW(kind, name, ...)  ROW(kde_fix, phone.kde_fix, kind, name, __VA_ARGS__)
+#define ML_FIX_ROW(kind, name, ...)   ROW(ml_fix, phone.ml_fix, kind, name, __VA_ARGS__)
 
 /* clang-format off */
 static const config_key_t keys[] = {

@@ -35,7 +35,7 @@ typedef enum {
 } method_t;
 
 /** For help. */
-#define METHOD_FOOT_NAMES  "ins, pdr, wifi, two-order or best"
+#define METHOD_FOOT_NAMES "ins, pdr, wifi, two-order or best"
 #define METHOD_PHONE_NAMES                                                                         \
     "pdr-gyro, pdr, wifi-kde, wifi-ml, ekf, ukf, kf-const, ekf-const, ukf-const, ml-shift or best"
 

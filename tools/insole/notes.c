@@ -139,9 +139,69 @@ static void note_cloud(notes_t *notes, const replay_facts_t *facts)
     }
 }
 
+/* ---- of a phone ------------------------------------------------------------------------- */
+
+static void note_steps(notes_t *notes, const replay_facts_t *facts)
+{
+    if (facts->strides == 0u) {
+        note(notes, "no step was seen: did anybody walk, and is the accelerometer's unit right "
+                    "(--accel-unit)?");
+    }
+    if (facts->phone.gaps > 0u) {
+        note(notes, "readings are missing: %lu long gap%s, in which steps may be",
+             facts->phone.gaps, facts->phone.gaps == 1u ? "" : "s");
+    }
+}
+
+static void note_phone_start(notes_t *notes, const replay_facts_t *facts)
+{
+    if (!facts->knows_place) {
+        note(notes, "no start is known, nor does radio tell it: the track begins at (0, 0), and x "
+                    "is where the phone pointed (--start x,y,heading, --radiomap FILE)");
+    }
+    if (facts->phone.magnetic == 0u && !facts->knows_heading) {
+        note(notes, "no magnetometer and no start that tells a heading: it takes some scans until "
+                    "the direction is known");
+    }
+}
+
+static void note_map(notes_t *notes, const replay_facts_t *facts)
+{
+    const replay_fusion_t *radio = &facts->fusion;
+    if (facts->phone.points == 0u && radio->ids > 0u) {
+        note(notes,
+             "the log hears %lu access points: fingerprints (--radiomap FILE) would hold the track",
+             radio->ids);
+    } else if (radio->ids > 0u && radio->unknown_ids == radio->ids) {
+        note(notes, "none of the access points heard is in the radio map: is it of this building?");
+    }
+    if (radio->radio.wild > 0u) {
+        note(notes,
+             "radio was left out %lu times: its stamps are a minute and more ahead of the "
+             "readings",
+             radio->radio.wild);
+    }
+}
+
+static void notes_of_phone(notes_t *notes, const replay_facts_t *facts)
+{
+    if (!method_is_radio_alone(facts->method)) {
+        note_steps(notes, facts);
+        note_gravity(notes, facts);
+        note_phone_start(notes, facts);
+    }
+    if (!method_is_steps_alone(facts->method)) {
+        note_map(notes, facts);
+    }
+}
+
 void notes_take(notes_t *notes, const replay_facts_t *facts)
 {
     notes->count = 0;
+    if (method_tracker(facts->method) == TRACKER_PHONE) {
+        notes_of_phone(notes, facts);
+        return;
+    }
     if (facts->method != METHOD_WIFI) {
         note_stances(notes, facts);
         note_rate(notes, facts);

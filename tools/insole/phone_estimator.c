@@ -52,23 +52,34 @@ static double offset_rad(const phone_estimator_t *estimator)
                : 0.0;
 }
 
-static bool watch_step(phone_estimator_t *estimator)
+/* The steps that were told since. */
+static void watch_steps(phone_estimator_t *estimator)
 {
-    insole_phone_step_t step;
-    if (insole_phone_tracker_step(&estimator->tracker, &step) != INSOLE_OK) {
-        return false;
+    const insole_phone_way_t *way = &estimator->tracker.way;
+    double turn_rad = offset_rad(estimator);
+    uint32_t fresh = way->ring.end - estimator->steps;
+    uint32_t kept = insole_ring_count(&way->ring);
+    for (uint32_t back = fresh < kept ? fresh : kept; back > 0u; back--) {
+        const insole_phone_way_step_t *step =
+            &way->steps[insole_ring_slot(&way->ring, way->ring.end - back)];
+        double x_m = (double)step->way.x_m, y_m = (double)step->way.y_m;
+        event_t *event =
+            add_event(estimator, EVENT_STEP, to_log_us(step->begin_us), to_log_us(step->end_us));
+        event->length_m = hypot(x_m, y_m);
+        event->heading_rad = remainder(atan2(y_m, x_m) + turn_rad, 6.283185307179586);
     }
-    event_t *event = add_event(estimator, EVENT_STEP, to_log_us(step.footfall.begin_us),
-                               to_log_us(step.footfall.end_us));
-    event->length_m = (double)step.pace.length_m;
-    event->heading_rad =
-        remainder((double)step.pace.heading_rad + offset_rad(estimator), 6.283185307179586);
-    return true;
+    estimator->steps = way->ring.end;
 }
 
 static void watch(phone_estimator_t *estimator, int64_t t_us)
 {
     const insole_phone_tracker_t *tracker = &estimator->tracker;
+    if (estimator->event_taken == estimator->event_count) {
+        estimator->event_taken = estimator->event_count = 0;
+    }
+    if (tracker->way.ring.end != estimator->steps) {
+        watch_steps(estimator);
+    }
     if (tracker->place.starts != estimator->starts) {
         (void)add_event(estimator, EVENT_START, t_us, t_us);
         estimator->starts = tracker->place.starts;
@@ -101,8 +112,7 @@ static void work(phone_estimator_t *estimator)
 static void fix_at_scan(phone_estimator_t *estimator, int64_t t_us)
 {
     const insole_phone_radio_t *radio = &estimator->tracker.radio;
-    if (!is_radio_alone(estimator) || estimator->has_imu ||
-        radio->fixes == estimator->reached) {
+    if (!is_radio_alone(estimator) || estimator->has_imu || radio->fixes == estimator->reached) {
         return;
     }
     const insole_fix_t blank = {.t_us = to_library_us(t_us)};
@@ -184,11 +194,8 @@ bool phone_estimator_step(phone_estimator_t *estimator)
     bool has_fix = insole_phone_tracker_next(&estimator->tracker, &estimator->fix) == INSOLE_OK;
     estimator->has_fix = estimator->has_fix || has_fix;
     work(estimator);
-    while (estimator->event_count < EVENT_KINDS && watch_step(estimator)) {
-    }
     watch(estimator, estimator->imu_us);
-    bool has_news = estimator->has_fix || estimator->event_taken < estimator->event_count;
-    return has_news;
+    return estimator->has_fix || estimator->event_taken < estimator->event_count;
 }
 
 bool phone_estimator_take(phone_estimator_t *estimator, track_row_t *fix)

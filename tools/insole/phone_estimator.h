@@ -18,6 +18,9 @@
 #include "radio_group.h"
 #include "track.h"
 
+/** A reading tells the steps of a walk that has begun; a scan before it and their fixes. */
+enum { PHONE_EVENTS = 2 * (INSOLE_PHONE_WAY_STEPS + 4) };
+
 typedef struct {
     estimator_setup_t setup;
     phone_parts_t parts;
@@ -28,9 +31,10 @@ typedef struct {
     int64_t imu_us;   /**< newest */
     uint32_t reached; /**< fixes by radio that have been looked at */
     uint32_t starts;  /**< of the filter, the same */
+    uint32_t steps;   /**< the same */
     insole_fix_t fix; /**< newest, until taken */
     bool has_fix;
-    event_t events[EVENT_KINDS];
+    event_t events[PHONE_EVENTS];
     int event_count, event_taken;
 } phone_estimator_t;
 

@@ -23,7 +23,8 @@ static bool give_events(run_t *run, failure_t *failure)
 {
     event_t event;
     while (estimator_event(&run->estimator, &event)) {
-        run->facts->strides += event.kind == EVENT_STRIDE ? 1u : 0u;
+        bool is_pace = event.kind == EVENT_STRIDE || event.kind == EVENT_STEP;
+        run->facts->strides += is_pace ? 1u : 0u;
         run->facts->walked_m += event.length_m;
         if (run->sink->event != NULL && !run->sink->event(run->sink->context, &event, failure)) {
             return false;
@@ -98,7 +99,7 @@ static void check_start(run_t *run, const record_t *start)
 
 static void tell_start(run_t *run, const record_t *start)
 {
-    if (run->request->method == METHOD_WIFI) {
+    if (method_is_radio_alone(run->request->method)) {
         return;
     }
     run->facts->start_us = run->facts->knows_place ? run->facts->start_us : start->t_us;
@@ -131,6 +132,15 @@ static void push_reading(run_t *run, const record_t *imu)
     estimator_push(&run->estimator, imu);
 }
 
+/* Index of an access point, in the file that the tracker uses. */
+static uint32_t number_of(const run_t *run, uint32_t id)
+{
+    const site_t *site = run->request->site;
+    const id_table_t *ids = &run->stream.session.ids;
+    return run->estimator.is_phone ? radiomap_file_number(&site->radiomap_file, ids, id)
+                                   : ap_file_number(&site->ap_file, ids, id);
+}
+
 /* Ids of the log become indexes of access points. */
 static void push_radio(run_t *run, const record_t *record)
 {
@@ -138,7 +148,7 @@ static void push_radio(run_t *run, const record_t *record)
     record_t known = *record;
     bool is_left_out = record->kind == RECORD_RSS ? request->no_rss : request->no_range;
     if (request->site != NULL && !is_left_out) {
-        known.id = ap_file_number(&request->site->ap_file, &run->stream.session.ids, record->id);
+        known.id = number_of(run, record->id);
         estimator_push(&run->estimator, &known);
     }
 }
@@ -151,6 +161,8 @@ static void take_record(run_t *run, const record_t *record)
         push_reading(run, record);
     } else if (record->kind == RECORD_RSS || record->kind == RECORD_RANGE) {
         push_radio(run, record);
+    } else if (record->kind == RECORD_MAG) {
+        estimator_push(&run->estimator, record);
     } else if (record->kind == RECORD_START && !run->request->has_start &&
                !run->request->no_start) {
         tell_start(run, record);
@@ -187,7 +199,7 @@ static bool open_stream(run_t *run, failure_t *failure)
     const replay_request_t *request = run->request;
     bool is_good = sensor_stream_open(&run->stream, request->logs, request->log_count,
                                       request->accel_unit, request->gyro_unit, failure);
-    run->stream.is_radio_enough = request->method == METHOD_WIFI;
+    run->stream.is_radio_enough = method_is_radio_alone(request->method);
     return is_good && (run->sink->begin == NULL ||
                        run->sink->begin(run->sink->context, &run->stream.session, failure));
 }
@@ -199,8 +211,7 @@ static void count_ids(const run_t *run, replay_fusion_t *facts)
     const id_table_t *ids = &run->stream.session.ids;
     facts->ids = ids->count;
     for (size_t i = 0u; i < ids->count && run->request->site != NULL; i++) {
-        uint32_t number = ap_file_number(&run->request->site->ap_file, ids, (uint32_t)i);
-        facts->unknown_ids += number == AP_FILE_UNKNOWN ? 1u : 0u;
+        facts->unknown_ids += number_of(run, (uint32_t)i) == AP_FILE_UNKNOWN ? 1u : 0u;
     }
 }
 
@@ -217,32 +228,35 @@ static void copy_cloud(const insole_fusion_memory_t *memory, track_t *cloud)
     }
 }
 
-static void gather_fusion(const run_t *run, replay_fusion_t *facts)
+static void gather_cloud(const foot_estimator_t *foot, replay_fusion_t *facts)
 {
-    const estimator_t *estimator = &run->estimator;
-    const insole_particle_filter_t *particles = &estimator->fusion.particles;
-    const insole_building_t *building = &estimator->building;
-    facts->is_fused = estimator->is_fused || run->request->method == METHOD_WIFI;
-    facts->walls = building->plan != NULL ? building->plan->wall_count : 0u;
-    facts->aps = building->ap_count;
-    facts->radio = estimator->counts;
-    facts->waits = estimator->fusion.radio.counts;
-    facts->starts = estimator->fusion.counts.starts;
+    const insole_particle_filter_t *particles = &foot->fusion.particles;
+    facts->waits = foot->fusion.radio.counts;
+    facts->starts = foot->fusion.counts.starts;
     facts->particles = particles->counts;
     facts->has_offset = particles->field.learned > 0u;
     facts->offset_db = (double)particles->field.offset_db;
-    facts->leaves_radiomap = run->request->leaves_radiomap;
-    count_ids(run, facts);
     if (particles->has_fix) {
-        copy_cloud(&estimator->memory, &facts->cloud);
+        copy_cloud(&foot->memory, &facts->cloud);
     }
 }
 
-static void gather_facts(run_t *run)
+static void gather_fusion(const run_t *run, replay_fusion_t *facts)
 {
-    const insole_foot_tracker_t *foot = &run->estimator.fusion.foot;
-    memcpy(run->facts->seen, run->stream.seen, sizeof run->facts->seen);
-    run->facts->method = run->request->method;
+    const foot_estimator_t *foot = &run->estimator.foot;
+    const insole_building_t *building = &foot->building;
+    facts->is_fused = foot->is_fused || run->request->method == METHOD_WIFI;
+    facts->walls = building->plan != NULL ? building->plan->wall_count : 0u;
+    facts->aps = building->ap_count;
+    facts->radio = foot->counts;
+    facts->leaves_radiomap = run->request->leaves_radiomap;
+    count_ids(run, facts);
+    gather_cloud(foot, facts);
+}
+
+static void gather_foot(run_t *run)
+{
+    const insole_foot_tracker_t *foot = &run->estimator.foot.fusion.foot;
     run->facts->screen = foot->screen.counts;
     run->facts->foot = foot->counts;
     run->facts->gravity_mps2 = (double)foot->still_bias.gravity_mps2;
@@ -250,21 +264,58 @@ static void gather_facts(run_t *run)
     gather_fusion(run, &run->facts->fusion);
 }
 
+static void gather_phone(run_t *run)
+{
+    const phone_estimator_t *phone = &run->estimator.phone;
+    const insole_radio_map_t *map = phone->parts.map;
+    replay_phone_t *facts = &run->facts->phone;
+    run->facts->screen = phone->tracker.screen.counts;
+    run->facts->gravity_mps2 = (double)phone->tracker.still_bias.gravity_mps2;
+    run->facts->rests = phone->tracker.still_bias.rests;
+    run->facts->fusion.radio = phone->counts;
+    count_ids(run, &run->facts->fusion);
+    facts->points = map != NULL ? map->point_count : 0u;
+    facts->aps = map != NULL ? map->ap_count : 0u;
+    facts->unplaced = phone->tracker.radio.unplaced;
+    facts->magnetic = phone->tracker.counts.magnetic;
+    facts->starts = phone->tracker.place.starts;
+    facts->gaps = phone->tracker.counts.gaps;
+}
+
+static void gather_facts(run_t *run)
+{
+    memcpy(run->facts->seen, run->stream.seen, sizeof run->facts->seen);
+    run->facts->method = run->request->method;
+    if (run->estimator.is_phone) {
+        gather_phone(run);
+    } else {
+        gather_foot(run);
+    }
+}
+
+static estimator_setup_t setup_of(const replay_request_t *request)
+{
+    const site_t *site = request->site;
+    estimator_setup_t setup = {.settings = &request->settings,
+                               .method = request->method,
+                               .building = site != NULL ? &site->building : NULL,
+                               .particles = request->particles,
+                               .seed = request->seed,
+                               .is_smooth = request->is_smooth};
+    setup.map = site != NULL && site_has_radiomap(site) ? &site->radiomap_file.map : NULL;
+    return setup;
+}
+
 bool replay_run(const replay_request_t *request, const replay_sink_t *sink, replay_facts_t *facts,
                 failure_t *failure)
 {
     run_t *run = memory_new(1u, sizeof *run);
-    const estimator_setup_t setup = {&request->settings,
-                                     request->method,
-                                     request->site != NULL ? &request->site->building : NULL,
-                                     request->particles,
-                                     request->seed,
-                                     request->is_smooth};
+    const estimator_setup_t setup = setup_of(request);
     memset(facts, 0, sizeof *facts);
     run->request = request;
     run->sink = sink;
     run->facts = facts;
-    row_maker_init(&run->rows, request->method == METHOD_WIFI ? 0.0 : request->rate_hz);
+    row_maker_init(&run->rows, method_is_radio_alone(request->method) ? 0.0 : request->rate_hz);
     bool is_good = estimator_init(&run->estimator, &setup) ||
                    failure_input(failure, "insole: the tracker does not take these settings");
     is_good = is_good && open_stream(run, failure) && run_stream(run, failure);

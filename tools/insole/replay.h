@@ -17,6 +17,7 @@ typedef struct {
     const char *const *logs; /**< files, folders or `-` */
     size_t log_count;
     settings_t settings;
+    tracker_t tracker;
     method_t method;
     const site_t *site;                 /**< NULL: nothing is known of the building */
     uint32_t particles;                 /**< of the cloud */
@@ -59,13 +60,22 @@ typedef struct {
 
 #define REPLAY_FAR_M 1000.0
 
+/** What the phone tracker tells of itself. */
+typedef struct {
+    unsigned long points, aps; /**< of the radio map */
+    unsigned long unplaced;    /**< scans that gave no position */
+    unsigned long magnetic;    /**< readings of the magnetometer taken */
+    unsigned long starts;      /**< times the filter was started */
+    unsigned long gaps;        /**< long ones in the readings */
+} replay_phone_t;
+
 /** What is known after a replay. */
 typedef struct {
     method_t method;
-    unsigned long seen[RECORD_KINDS]; /**< records in the logs */
-    unsigned long readings;           /**< IMU readings handed to the tracker */
-    int64_t first_us, last_us;        /**< of the fixes */
-    unsigned long fixes, strides;
+    unsigned long seen[RECORD_KINDS];          /**< records in the logs */
+    unsigned long readings;                    /**< IMU readings handed to the tracker */
+    int64_t first_us, last_us;                 /**< of the fixes */
+    unsigned long fixes, strides;              /**< with a phone these are steps */
     double walked_m;                           /**< sum of the strides */
     double fastest_radps;                      /**< largest turn rate */
     bool knows_place, knows_heading;           /**< by a start, or by radio */
@@ -74,9 +84,10 @@ typedef struct {
     track_row_t last;                          /**< fix */
     insole_screen_counts_t screen;
     insole_foot_counts_t foot;
-    double gravity_mps2; /**< as the tracker took it in the end */
-    unsigned long rests; /**< of the sensor, not stances of a walk */
-    replay_fusion_t fusion;
+    double gravity_mps2;    /**< as the tracker took it in the end */
+    unsigned long rests;    /**< of the sensor, not stances of a walk */
+    replay_fusion_t fusion; /**< of a phone only its radio, without ranges */
+    replay_phone_t phone;
     track_t truth; /**< found in the logs; never shown to the tracker */
 } replay_facts_t;
 

@@ -63,16 +63,6 @@ static bool apply_start(const arguments_t *arguments, replay_request_t *request,
     return true;
 }
 
-static bool check_tracker(const arguments_t *arguments, failure_t *failure)
-{
-    const char *tracker = options_value(arguments, "tracker");
-    if (tracker != NULL && strcmp(tracker, "foot") != 0) {
-        return failure_usage(failure, "insole %s: --tracker %.40s: expected foot",
-                             arguments->command, tracker);
-    }
-    return true;
-}
-
 /* ---- second order ----------------------------------------------------------------------- */
 
 static bool apply_use(const arguments_t *arguments, replay_request_t *request, failure_t *failure)
@@ -114,9 +104,9 @@ static bool apply_cloud(const arguments_t *arguments, replay_request_t *request,
 }
 
 /* Fingerprints alone tell the foot tracker nothing. */
-static bool is_of_use(const site_t *site)
+static bool is_of_use(const site_t *site, tracker_t tracker)
 {
-    return site->building.plan != NULL || site->building.ap_count > 0u;
+    return site->building.plan != NULL || site->building.ap_count > 0u || tracker == TRACKER_PHONE;
 }
 
 static void close_site(replay_request_t *request)
@@ -142,11 +132,12 @@ static bool open_site(const arguments_t *arguments, replay_request_t *request, f
         request->site = site;
         is_good = site_open(site, found.plan, found.aps, found.radiomap,
                             &request->settings.propagation, failure);
-        if (is_good && !is_of_use(site)) {
+        if (is_good && !is_of_use(site, request->tracker)) {
             close_site(request);
         }
     }
-    request->leaves_radiomap = options_has(arguments, "radiomap");
+    request->leaves_radiomap =
+        options_has(arguments, "radiomap") && request->tracker == TRACKER_FOOT;
     site_folder_free(&found);
     return is_good;
 }
@@ -155,8 +146,12 @@ static bool apply_method(const arguments_t *arguments, replay_request_t *request
                          failure_t *failure)
 {
     const char *method = options_value(arguments, "method");
-    request->method = method_of(&request->settings);
-    return method == NULL || method_parse(method, &request->method, failure);
+    const char *name = options_value(arguments, "tracker");
+    if (name != NULL && !tracker_parse(name, &request->tracker, failure)) {
+        return false;
+    }
+    request->method = method_of(&request->settings, request->tracker);
+    return method == NULL || method_parse(request->tracker, method, &request->method, failure);
 }
 
 /* ---- all together ----------------------------------------------------------------------- */
@@ -177,8 +172,7 @@ bool replay_options_parse(const arguments_t *arguments, replay_request_t *reques
                              "insole %s: no log: expected files, folders or - for standard input",
                              arguments->command);
     }
-    return check_tracker(arguments, failure) &&
-           apply_settings(arguments, &request->settings, failure) &&
+    return apply_settings(arguments, &request->settings, failure) &&
            apply_method(arguments, request, failure) && apply_start(arguments, request, failure) &&
            apply_use(arguments, request, failure) && apply_cloud(arguments, request, failure) &&
            open_site(arguments, request, failure);
@@ -209,9 +203,30 @@ static bool check_lag(const arguments_t *arguments, const replay_request_t *requ
                          arguments->command, method_name(request->method));
 }
 
+static bool check_phone(const arguments_t *arguments, const replay_request_t *request,
+                        failure_t *failure)
+{
+    static const char *const foreign[] = {"aps", "smooth", "lag"};
+    bool has_map = request->site != NULL && site_has_radiomap(request->site);
+    if (method_is_radio_alone(request->method) && !has_map) {
+        return failure_usage(failure, "insole %s: --method %s needs fingerprints: --radiomap FILE",
+                             arguments->command, method_name(request->method));
+    }
+    for (size_t i = 0u; i < sizeof foreign / sizeof foreign[0]; i++) {
+        if (options_has(arguments, foreign[i])) {
+            return failure_usage(failure, "insole %s: --%s is for the foot tracker",
+                                 arguments->command, foreign[i]);
+        }
+    }
+    return true;
+}
+
 bool replay_options_check(const arguments_t *arguments, const replay_request_t *request,
                           failure_t *failure)
 {
+    if (request->tracker == TRACKER_PHONE) {
+        return check_phone(arguments, request, failure);
+    }
     bool has_aps = request->site != NULL && request->site->building.ap_count > 0u;
     if (request->method == METHOD_WIFI && !has_aps) {
         return failure_usage(failure, "insole %s: --method wifi needs access points: --aps FILE",

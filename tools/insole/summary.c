@@ -9,6 +9,7 @@
 #include "record_line.h"
 #include "score_print.h"
 #include "summary_fusion.h"
+#include "summary_phone.h"
 
 /* One counter of the screen: what happened to how many readings. */
 typedef struct {
@@ -67,11 +68,15 @@ static void print_walk(FILE *file, const replay_facts_t *facts)
                 number_fixed(b, notes_rate_hz(facts), 1));
     }
     fputc('\n', file);
-    if (facts->method == METHOD_WIFI) {
-        return; /* nobody looked at the foot */
+    if (method_is_radio_alone(facts->method)) {
+        return; /* nobody looked at the walker */
     }
-    fprintf(file, "  distance       %s m in %lu strides\n", number_fixed(a, facts->walked_m, 2),
-            facts->strides);
+    bool is_phone = method_tracker(facts->method) == TRACKER_PHONE;
+    fprintf(file, "  distance       %s m in %lu %s\n", number_fixed(a, facts->walked_m, 2),
+            facts->strides, is_phone ? "steps" : "strides");
+    if (is_phone) {
+        return;
+    }
     fprintf(file, "  foot still     %s %% of the time, in %lu stances\n",
             number_fixed(a, 100.0 * notes_still_share(facts), 1),
             (unsigned long)facts->foot.stances);
@@ -110,7 +115,11 @@ void summary_print(FILE *file, const summary_t *summary)
     notes_t notes;
     fprintf(file, "%s tracker, method %s\n", summary->tracker, summary->method);
     print_walk(file, facts);
-    summary_fusion_print(file, summary);
+    if (method_tracker(facts->method) == TRACKER_PHONE) {
+        summary_phone_print(file, summary);
+    } else {
+        summary_fusion_print(file, summary);
+    }
     print_last(file, &facts->last);
     list_troubles(&facts->screen, troubles);
     print_troubles(file, "  refused        ", troubles, false);
@@ -184,11 +193,16 @@ void summary_json(FILE *file, const summary_t *summary)
     json_whole(&json, "readings", (long long)facts->readings);
     json_number(&json, "rate_hz", notes_rate_hz(facts), 3);
     json_number(&json, "distance_m", facts->walked_m, 4);
-    json_whole(&json, "strides", (long long)facts->strides);
-    json_whole(&json, "stances", (long long)facts->foot.stances);
-    json_number(&json, "still_share", notes_still_share(facts), 4);
+    if (method_tracker(facts->method) == TRACKER_PHONE) {
+        json_whole(&json, "steps", (long long)facts->strides);
+        summary_phone_json(&json, summary);
+    } else {
+        json_whole(&json, "strides", (long long)facts->strides);
+        json_whole(&json, "stances", (long long)facts->foot.stances);
+        json_number(&json, "still_share", notes_still_share(facts), 4);
+        summary_fusion_json(&json, summary);
+    }
     json_last(&json, &facts->last);
-    summary_fusion_json(&json, summary);
     json_troubles(&json, &facts->screen, "refused", false);
     json_troubles(&json, &facts->screen, "repaired", true);
     json_lists(&json, facts);

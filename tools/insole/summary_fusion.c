@@ -5,6 +5,7 @@
 
 #include "number.h"
 #include "platform.h"
+#include "summary_states.h"
 
 /* ---- for people ------------------------------------------------------------------------- */
 
@@ -62,22 +63,6 @@ static void print_cloud(FILE *file, const replay_fusion_t *facts)
     }
 }
 
-static void print_states(FILE *file, const replay_facts_t *facts)
-{
-    char share[NUMBER_ROOM];
-    const char *between = "";
-    fputs("  states         ", file);
-    for (int state = 0; state <= INSOLE_FIX_LOST; state++) {
-        if (facts->states[state] > 0u) {
-            double percent = 100.0 * (double)facts->states[state] / (double)facts->fixes;
-            fprintf(file, "%s%s %s %%", between, track_state_name((insole_fix_state_t)state),
-                    number_fixed(share, percent, 1));
-            between = ", ";
-        }
-    }
-    putc('\n', file);
-}
-
 void summary_fusion_print(FILE *file, const summary_t *summary)
 {
     const replay_facts_t *facts = summary->facts;
@@ -92,7 +77,7 @@ void summary_fusion_print(FILE *file, const summary_t *summary)
         print_cloud(file, &facts->fusion);
     }
     if (facts->fusion.is_fused) {
-        print_states(file, facts);
+        summary_states_print(file, facts);
     }
 }
 
@@ -140,19 +125,9 @@ static void json_cloud(json_t *json, const replay_fusion_t *facts)
     json_end(json);
 }
 
-static void json_states(json_t *json, const replay_facts_t *facts)
-{
-    json_object(json, "states");
-    for (int state = 0; state <= INSOLE_FIX_LOST && facts->fixes > 0u; state++) {
-        json_number(json, track_state_name((insole_fix_state_t)state),
-                    (double)facts->states[state] / (double)facts->fixes, 4);
-    }
-    json_end(json);
-}
-
 void summary_fusion_json(json_t *json, const summary_t *summary)
 {
-    json_states(json, summary->facts);
+    summary_states_json(json, summary->facts);
     if (summary->facts->fusion.is_fused) {
         json_building(json, summary);
         json_radio(json, &summary->facts->fusion);

@@ -58,12 +58,6 @@ typedef struct {
     uint32_t refused;  /**< calls answered with a negative status */
 } insole_phone_counts_t;
 
-/** A step as it went to the filter. */
-typedef struct {
-    insole_footfall_t footfall;
-    insole_pace_t pace;
-} insole_phone_step_t;
-
 typedef struct {
     insole_phone_tracker_config_t config;
     insole_phone_counts_t counts;
@@ -73,7 +67,7 @@ typedef struct {
     insole_still_bias_t still_bias;
     insole_attitude_t attitude;
     insole_step_counter_t steps;
-    insole_phone_way_t way;
+    insole_phone_way_t way; /**< the last steps, n */
     insole_phone_compass_t compass;
     insole_phone_radio_t radio;
     insole_phone_place_t place; /**< unless there is no filter */
@@ -87,8 +81,6 @@ typedef struct {
     uint32_t shown_count;
     insole_fix_t fix; /**< newest, until taken */
     bool has_fix;
-    insole_phone_step_t step; /**< newest, until taken */
-    bool has_step;
 } insole_phone_tracker_t;
 
 /** @param parts  their states must have been set up, and stay where they are
@@ -128,11 +120,6 @@ bool insole_phone_tracker_work(insole_phone_tracker_t *tracker, uint32_t count);
 /** The fix of the newest sample.
  *  @return INSOLE_ERR_STATE when none is ready */
 insole_status_t insole_phone_tracker_next(insole_phone_tracker_t *tracker, insole_fix_t *fix);
-
-/** The newest step since the last call; its heading is in n.
- *  @return INSOLE_ERR_STATE when there is none */
-insole_status_t insole_phone_tracker_step(insole_phone_tracker_t *tracker,
-                                          insole_phone_step_t *step);
 
 /** No more samples will come: the one that is held back becomes a fix. */
 insole_status_t insole_phone_tracker_finish(insole_phone_tracker_t *tracker);

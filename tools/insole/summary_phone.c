@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+#include "summary_phone.h"
+
+#include "platform.h"
+#include "summary_states.h"
+
+static void print_radio(FILE *file, const replay_facts_t *facts)
+{
+    const replay_fusion_t *radio = &facts->fusion;
+    fprintf(file, "  radio          %lu scans; %lu gave a position", radio->radio.scans,
+            radio->radio.worked_in);
+    if (facts->phone.unplaced > 0u) {
+        fprintf(file, "; %lu heard too little", facts->phone.unplaced);
+    }
+    if (radio->unknown_ids > 0u) {
+        fprintf(file, "; %lu of %lu ids unknown", radio->unknown_ids, radio->ids);
+    }
+    putc('\n', file);
+}
+
+void summary_phone_print(FILE *file, const summary_t *summary)
+{
+    const replay_facts_t *facts = summary->facts;
+    if (facts->phone.points > 0u) {
+        fprintf(file, "  fingerprints   %s (%lu points, %lu access points)\n",
+                platform_base_name(summary->site->radiomap_file.name), facts->phone.points,
+                facts->phone.aps);
+        print_radio(file, facts);
+    } else if (!method_is_steps_alone(facts->method)) {
+        fputs("  fingerprints   none (--radiomap)\n", file);
+    }
+    fprintf(file, "  compass        %lu readings\n", facts->phone.magnetic);
+    summary_states_print(file, facts);
+}
+
+void summary_phone_json(json_t *json, const summary_t *summary)
+{
+    const replay_facts_t *facts = summary->facts;
+    summary_states_json(json, facts);
+    json_object(json, "phone");
+    if (facts->phone.points > 0u) {
+        json_text(json, "radiomap", summary->site->radiomap_file.name);
+    }
+    json_whole(json, "points", (long long)facts->phone.points);
+    json_whole(json, "access_points", (long long)facts->phone.aps);
+    json_whole(json, "scans", (long long)facts->fusion.radio.scans);
+    json_whole(json, "placed", (long long)facts->fusion.radio.worked_in);
+    json_whole(json, "unplaced", (long long)facts->phone.unplaced);
+    json_whole(json, "ids", (long long)facts->fusion.ids);
+    json_whole(json, "unknown_ids", (long long)facts->fusion.unknown_ids);
+    json_whole(json, "magnetic", (long long)facts->phone.magnetic);
+    json_whole(json, "starts", (long long)facts->phone.starts);
+    json_whole(json, "gaps", (long long)facts->phone.gaps);
+    json_end(json);
+}
