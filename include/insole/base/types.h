@@ -51,6 +51,17 @@ static inline insole_spot_t insole_spot_add_scaled(insole_spot_t a, insole_real_
     return insole_spot(a.x_m + s * b.x_m, a.y_m + s * b.y_m);
 }
 
+static inline insole_spot_t insole_spot_scale(insole_real_t s, insole_spot_t a)
+{
+    return insole_spot(s * a.x_m, s * a.y_m);
+}
+
+/** A quarter turn to the left. */
+static inline insole_spot_t insole_spot_left(insole_spot_t a)
+{
+    return insole_spot(-a.y_m, a.x_m);
+}
+
 static inline insole_real_t insole_spot_dot(insole_spot_t a, insole_spot_t b)
 {
     return a.x_m * b.x_m + a.y_m * b.y_m;
