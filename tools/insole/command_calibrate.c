@@ -16,7 +16,8 @@ typedef struct {
 static const calibration_t calibrations[] = {{"imu", calibrate_imu},
                                              {"stride", calibrate_stride},
                                              {"gyro-scale", calibrate_gyro_scale},
-                                             {"pathloss", calibrate_pathloss}};
+                                             {"pathloss", calibrate_pathloss},
+                                             {"steplength", calibrate_steplength}};
 
 static const calibration_t *find_calibration(const char *name)
 {
@@ -34,7 +35,9 @@ static bool run(const arguments_t *arguments, failure_t *failure)
     const calibration_t *calibration = find_calibration(name);
     if (calibration == NULL) {
         return failure_usage(
-            failure, "insole calibrate %.40s: expected imu, stride, gyro-scale or pathloss", name);
+            failure,
+            "insole calibrate %.40s: expected imu, stride, gyro-scale, pathloss or steplength",
+            name);
     }
     if (arguments->operand_count < 2u) {
         return failure_usage(failure, "insole calibrate %s: no log: expected one or more", name);
@@ -46,6 +49,7 @@ static bool run(const arguments_t *arguments, failure_t *failure)
 
 static const option_t options[] = {
     {"turns", "N", "gyro-scale: how many whole turns"},
+    {"distance", "M", "steplength: length of the one walk; without it truth tells"},
     {"accel-unit", "UNIT", "mps2 (default), g or mg"},
     {"gyro-unit", "UNIT", "radps (default) or dps"},
     {"aps", "FILE", "pathloss: where the access points are"},
@@ -56,7 +60,7 @@ static const option_t options[] = {
 
 const command_t command_calibrate = {
     "calibrate",
-    "imu|stride|gyro-scale|pathloss SESSION...",
+    "imu|stride|gyro-scale|pathloss|steplength SESSION...",
     "measure what the defaults cannot know",
     "Every SESSION (a file or a folder) stands for itself. What is printed are config lines for\n"
     "`replay --config FILE`.\n"
@@ -71,6 +75,8 @@ const command_t command_calibrate = {
     "              p0, exponent, losses of walls and body, sigma, how good they are, and what "
     "looks\n"
     "              misplaced; --out writes the access points with the values of each\n"
+    "  steplength  coefficients of each model of a phone walker's steps, with standard errors, by\n"
+    "              the truth of the sessions, or by --distance for one\n"
     "\n"
     "  insole calibrate imu desk.csv >> my.conf\n"
     "  insole calibrate gyro-scale chair.csv --turns 10 >> my.conf\n"

@@ -13,10 +13,10 @@
 #define REPLAY_OPTIONS                                                                            \
     {"tracker", "foot", "which tracker; foot is the one there is (default)"},                     \
     {"plan", "FILE", "floor plan: its walls hold the track; a folder that is replayed may bring\n"\
-     "its own plan.csv, aps.csv and radiomap.csv"},                                                             \
+     "its own plan.csv, aps.csv and radiomap.csv"},                                               \
     {"aps", "FILE", "access points: radio in the log holds the track"},                           \
-    {"radiomap", "FILE", "fingerprints, as `insole radiomap` makes them; the foot tracker leaves\n"  \
-     "them aside"},                                                                               \
+    {"radiomap", "FILE", "fingerprints, as `insole radiomap` makes them; the foot tracker\n"     \
+     "leaves them aside"},                                                                        \
     {"use", "rss,range", "which radio counts: rss, range or both (default)"},                     \
     {"seed", "N", "of the particles' random numbers (default 1); equal seeds give equal\n"        \
      "tracks"},                                                                                   \
