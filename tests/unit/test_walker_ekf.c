@@ -80,7 +80,7 @@ typedef struct {
 static book_t book_of(const insole_walker_start_t *start)
 {
     book_t book = {{0.0}, dense_diagonal(0.0), 1e-6 * (double)start->t_us, 0.0, false};
-    double bias2 = insole_walker_ekf_defaults.bias_m * insole_walker_ekf_defaults.bias_m;
+    const double bias2 = 3.5 * 3.5;
     plane_t cov = plane_of(start->cov_m2);
     book.x[X] = (double)start->spot.x_m;
     book.x[Y] = (double)start->spot.y_m;
