@@ -77,6 +77,7 @@ static insole_spot_fix_t fix;
 static insole_step_fusion_t fusion;
 static insole_ml_shift_t ml;
 static insole_auto_start_t start;
+static insole_walker_ekf_t walker;
 
 static void make_news(uint32_t call)
 {
@@ -139,6 +140,81 @@ static void call_insole_ml_shift_fix(uint32_t call)
     bench_take_vec3(0u, insole_vec3(ml.spot.x_m, ml.spot.y_m, ml.P.xx));
 }
 
+/* The direction known to `sigma_rad` rad. */
+static void begin_walker(insole_real_t sigma_rad)
+{
+    insole_walker_start_t known = {.cov_m2 = insole_sym2_circle(INSOLE_R(4.0)),
+                                   .offset_rad = INSOLE_R(0.5),
+                                   .var_offset_rad2 = sigma_rad * sigma_rad,
+                                   .by_radio = true};
+    insole_walker_ekf_init(&walker, &insole_walker_ekf_defaults);
+    insole_walker_ekf_start(&walker, &known);
+}
+
+static void begin_walker_known(void)
+{
+    begin_walker(INSOLE_R(0.26));
+}
+
+static void begin_walker_wide(void)
+{
+    begin_walker(INSOLE_PI);
+}
+
+static void take_walker(void)
+{
+    insole_walker_answer_t answer;
+    insole_walker_ekf_answer(&walker, &answer);
+    bench_take_vec3(0u, insole_vec3(answer.spot.x_m, answer.spot.y_m, answer.offset_rad));
+    bench_take_vec3(3u, insole_vec3(answer.cov_m2.xx, answer.cov_m2.xy, answer.cov_m2.yy));
+    bench_take_vec3(6u, insole_vec3(answer.scale, answer.var_scale, answer.var_offset_rad2));
+}
+
+/* What happens between two counted calls, so that the direction stays as known as it was. */
+static void make_walker_step(uint32_t call)
+{
+    make_news(call);
+    insole_walker_ekf_fix(&walker, &fix);
+}
+
+static void make_walker_fix(uint32_t call)
+{
+    make_news(call);
+    insole_walker_ekf_step(&walker, &pace);
+}
+
+static void make_walker_wide(uint32_t call)
+{
+    begin_walker_wide();
+    make_news(call);
+}
+
+static void call_insole_walker_ekf_step(uint32_t call)
+{
+    (void)call;
+    insole_walker_ekf_step(&walker, &pace);
+    take_walker();
+}
+
+static void call_insole_walker_ekf_step_wide(uint32_t call)
+{
+    call_insole_walker_ekf_step(call);
+}
+
+static void call_insole_walker_ekf_fix(uint32_t call)
+{
+    (void)call;
+    insole_walker_ekf_fix(&walker, &fix);
+    take_walker();
+}
+
+static void call_insole_walker_ekf_compass(uint32_t call)
+{
+    (void)call;
+    insole_walker_ekf_compass(&walker, INSOLE_R(0.5), INSOLE_R(0.8));
+    take_walker();
+}
+
 /* Begun anew, so that each call is the last of five fixes. */
 static void make_start(int32_t method)
 {
@@ -198,6 +274,13 @@ static const bench_case_t cases[] = {
      call_insole_step_fusion_step_ukf},
     {"insole_step_fusion_fix", 200u, begin_fusion, make_news, call_insole_step_fusion_fix},
     {"insole_ml_shift_fix", 200u, begin_ml_shift, make_news, call_insole_ml_shift_fix},
+    {"insole_walker_ekf_step", 200u, begin_walker_known, make_walker_step,
+     call_insole_walker_ekf_step},
+    {"insole_walker_ekf_step_wide", 50u, NULL, make_walker_wide, call_insole_walker_ekf_step_wide},
+    {"insole_walker_ekf_fix", 200u, begin_walker_known, make_walker_fix,
+     call_insole_walker_ekf_fix},
+    {"insole_walker_ekf_compass", 200u, begin_walker_known, make_walker_fix,
+     call_insole_walker_ekf_compass},
     {"insole_auto_start_moved", 50u, NULL, make_moved, call_insole_auto_start_moved},
     {"insole_auto_start_circles", 50u, NULL, make_circles, call_insole_auto_start_circles},
 };
