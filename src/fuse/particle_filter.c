@@ -4,10 +4,7 @@
 #include <stddef.h>
 
 #define ZERO INSOLE_R(0.0)
-#define HALF INSOLE_R(0.5)
 #define ONE  INSOLE_R(1.0)
-
-#define SIGMA_MAX_M INSOLE_R(1e4)
 
 /* A pair of a node and an access point costs about so many particles. */
 #define PARTICLES_PER_PAIR 3u
@@ -17,8 +14,10 @@
 
 static insole_status_t refuse(insole_particle_filter_t *filter, insole_status_t status)
 {
-    filter->counts.refused++;
-    return status;
+    if (filter) {
+        filter->counts.refused++;
+    }
+    return filter ? status : INSOLE_ERR_NULL;
 }
 
 insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
@@ -32,17 +31,11 @@ insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
     *filter = (insole_particle_filter_t){.config = *config};
     filter->weighing.walls = (insole_walls_t)config->walls;
     insole_rng_seed(&filter->rng, seed);
-    return insole_rss_field_init(&filter->field, &config->field);
+    status = insole_step_weighing_init(&filter->steps, config);
+    return status != INSOLE_OK ? status : insole_rss_field_init(&filter->field, &config->field);
 }
 
 /* ---- what is told ---- */
-
-static bool is_start(const insole_particle_start_t *start)
-{
-    return insole_is_finite(start->x_m) && insole_is_finite(start->y_m) &&
-           insole_is_finite(start->offset_rad) && start->sigma_m >= ZERO &&
-           start->sigma_m <= SIGMA_MAX_M && start->sigma_offset_rad >= ZERO;
-}
 
 static void begin_phase(insole_particle_filter_t *filter, insole_particle_phase_t phase)
 {
@@ -58,92 +51,92 @@ static void begin_drawing(insole_particle_filter_t *filter, const insole_cloud_s
     begin_phase(filter, INSOLE_PARTICLES_DRAW);
 }
 
-insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
-                                             const insole_cloud_t *cloud,
-                                             const insole_particle_start_t *start)
+/* @param fix  about which, as heard by radio; NULL: none */
+static insole_status_t begin_anew(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                                  insole_cloud_source_t source, const insole_spot_fix_t *fix)
 {
-    if (!filter) {
-        return INSOLE_ERR_NULL;
+    insole_status_t status = insole_cloud_check(cloud);
+    if (status == INSOLE_OK) {
+        status = insole_step_weighing_start(&filter->steps, fix, cloud->bias != NULL);
     }
-    insole_status_t status = start ? insole_cloud_check(cloud) : INSOLE_ERR_NULL;
-    if (status != INSOLE_OK || !is_start(start)) {
-        return refuse(filter, status != INSOLE_OK ? status : INSOLE_ERR_VALUE);
+    if (status != INSOLE_OK) {
+        return refuse(filter, status);
     }
-    insole_cloud_fix_t known = {.x_m = start->x_m,
-                                .y_m = start->y_m,
-                                .var_x_m2 = insole_square(start->sigma_m),
-                                .var_y_m2 = insole_square(start->sigma_m),
-                                .offset_rad = insole_wrap_pi(start->offset_rad),
-                                .scale = ONE};
-    insole_cloud_source_t source = insole_cloud_source(&known, filter->config.sigma_scale);
-    source.sigma_offset_rad = start->sigma_offset_rad;
     insole_evidence_clear(&filter->weighing.news);
     filter->count = cloud->count;
+    filter->has_bias = cloud->bias != NULL;
     filter->has_fix = false;
     filter->since_start = 0;
     filter->deaths = 0;
-    filter->redraw_every = 0;
     begin_drawing(filter, &source);
     return INSOLE_OK;
 }
 
-static void take_stride(insole_particle_filter_t *filter, const insole_evidence_t *news)
+insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
+                                             const insole_cloud_t *cloud,
+                                             const insole_particle_start_t *start)
 {
-    const insole_particle_filter_config_t *config = &filter->config;
-    insole_cloud_stride_t stride = {
-        .length_m = news->length_m,
-        .sigma_length_m = config->sigma_length_m,
-        .heading_rad = news->heading_rad,
-        .sigma_heading_rad = config->turn_share * insole_abs(news->turn_rad),
-        .sigma_wander_rad = config->sigma_wander_rad,
-        .scale_memory = config->scale_memory,
-        .sigma_scale =
-            config->sigma_scale * insole_sqrt(ONE - insole_square(config->scale_memory))};
-    filter->weighing.stride = stride;
-    filter->since_start++;
-    filter->counts.strides++;
-    insole_cloud_source_walk(&filter->reach, &stride);
+    insole_status_t status = insole_particle_start_check(start);
+    if (!filter || status != INSOLE_OK) {
+        return refuse(filter, status);
+    }
+    return begin_anew(filter, cloud,
+                      insole_particle_start_source(start, filter->config.sigma_scale), NULL);
 }
 
-static bool lay_field(insole_particle_filter_t *filter)
+insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filter,
+                                                  const insole_cloud_t *cloud,
+                                                  const insole_particle_origin_t *origin)
 {
-    const insole_cloud_source_t *reach = &filter->reach;
-    const insole_weighing_t *weighing = &filter->weighing;
-    insole_rss_around_t around = {
-        .x_m = reach->x_m - weighing->news.since.x_m,
-        .y_m = reach->y_m - weighing->news.since.y_m,
-        .sigma_m = insole_sqrt(insole_max(reach->var_x_m2, reach->var_y_m2)),
-        .heading_rad = weighing->stride.heading_rad + reach->offset_rad,
-        .has_heading =
-            filter->since_start > 0 && reach->sigma_offset_rad <= filter->config.wide_offset_rad};
-    return insole_rss_field_place(&filter->field, &around) == INSOLE_OK;
+    insole_status_t status = insole_particle_origin_check(origin);
+    if (!filter || status != INSOLE_OK) {
+        return refuse(filter, status);
+    }
+    insole_cloud_source_t source = insole_particle_origin_source(
+        origin, filter->config.bias_sigma_m, filter->config.sigma_scale);
+    return begin_anew(filter, cloud, source, origin->by_radio ? &origin->at : NULL);
+}
+
+static void take_stride(insole_particle_filter_t *filter, const insole_evidence_t *news)
+{
+    filter->weighing.stride = insole_particle_config_stride(&filter->config, news);
+    filter->since_start++;
+    filter->counts.strides++;
+    insole_cloud_source_walk(&filter->reach, &filter->weighing.stride);
+}
+
+static bool take_scan(insole_particle_filter_t *filter, const insole_building_t *building,
+                      const insole_evidence_t *news)
+{
+    bool has_heading =
+        filter->since_start > 0 && filter->reach.sigma_offset_rad <= filter->config.wide_offset_rad;
+    return insole_rss_field_hear(&filter->field, building, news->readings, news->reading_count) ==
+               INSOLE_OK &&
+           insole_weighing_lay(&filter->weighing, &filter->reach, has_heading, &filter->field) ==
+               INSOLE_OK;
 }
 
 insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
                                              const insole_building_t *building,
                                              const insole_evidence_t *news)
 {
-    if (!filter) {
-        return INSOLE_ERR_NULL;
-    }
+    bool is_idle = filter && filter->count > 0 && filter->phase == INSOLE_PARTICLES_IDLE;
     insole_status_t status = insole_evidence_check(news);
+    status = status == INSOLE_OK && !is_idle ? INSOLE_ERR_STATE : status;
+    if (status == INSOLE_OK) {
+        status = insole_step_weighing_begin(&filter->steps, &filter->config, news, filter->has_bias,
+                                            building && building->plan);
+    }
     if (status != INSOLE_OK) {
         return refuse(filter, status);
     }
-    if (filter->count == 0 || filter->phase != INSOLE_PARTICLES_IDLE) {
-        return refuse(filter, INSOLE_ERR_STATE);
-    }
-    insole_evidence_t *taken = &filter->weighing.news;
-    *taken = *news;
-    taken->readings = NULL;
-    insole_evidence_turn(taken, insole_cloud_source_turn(&filter->reach));
+    filter->weighing.news = *news;
+    insole_evidence_turn(&filter->weighing.news, insole_cloud_source_turn(&filter->reach));
     if (news->has_stride) {
         take_stride(filter, news);
     }
-    taken->has_scan = news->has_scan &&
-                      insole_rss_field_hear(&filter->field, building, news->readings,
-                                            news->reading_count) == INSOLE_OK &&
-                      lay_field(filter);
+    filter->weighing.news.has_scan = news->has_scan && take_scan(filter, building, news);
+    filter->in_rounds = filter->weighing.news.has_scan || filter->steps.looks;
     filter->is_blind = building && !building->plan;
     filter->weighing.scan_power =
         insole_particle_config_scan_power(&filter->config, &filter->reach, filter->is_blind);
@@ -167,6 +160,7 @@ static void draw_wider(insole_particle_filter_t *filter, insole_cloud_source_t s
     insole_cloud_source_widen(&source, wider * filter->config.recover_sigma_m,
                               wider * filter->config.recover_offset_rad);
     filter->deaths += filter->deaths < DEATHS_MAX ? 1u : 0u;
+    insole_step_weighing_start(&filter->steps, NULL, false);
     begin_drawing(filter, &source);
 }
 
@@ -204,7 +198,7 @@ static void point_elsewhere(insole_particle_filter_t *filter)
     insole_cloud_source_widen(&source, ZERO, config->redraw_offset_rad);
     insole_cloud_source_mix(&filter->reach, &source, config->redraw_share);
     filter->source = source;
-    filter->redraw_every = (uint32_t)(ONE / config->redraw_share + HALF);
+    filter->redraw_every = (uint32_t)(ONE / config->redraw_share + INSOLE_R(0.5));
     filter->counts.redrawn++;
 }
 
@@ -252,9 +246,9 @@ static void finish_one(insole_particle_filter_t *filter, const insole_cloud_t *c
                        const insole_floor_plan_t *plan)
 {
     insole_particle_t *particle = &cloud->particles[filter->next];
+    plan = insole_weighing_hard(&filter->weighing, plan);
     if (filter->spreads) {
-        insole_cloud_source_t own =
-            insole_cloud_source(&filter->fix, ZERO); /* `reach` holds more */
+        insole_cloud_source_t own = insole_cloud_source(&filter->fix, ZERO); /* `reach` is wider */
         insole_cloud_source_spread(&own, filter->config.spread_share, particle, plan, &filter->rng);
     }
     if (filter->redraw_every > 0 && filter->next % filter->redraw_every == 0) {
@@ -274,16 +268,23 @@ static void work_one(insole_particle_filter_t *filter, const insole_cloud_t *clo
     insole_particle_t *particle = &cloud->particles[filter->next];
     switch (filter->phase) {
     case INSOLE_PARTICLES_DRAW:
-        insole_cloud_source_draw(&filter->source, particle, filter->anywhere ? NULL : plan,
-                                 &filter->rng);
+        plan = filter->anywhere ? NULL : insole_weighing_hard(weighing, plan);
+        insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
+        insole_step_weighing_drawn(&filter->steps, cloud, filter->next);
         insole_weighing_note(weighing, particle, filter->next);
         break;
     case INSOLE_PARTICLES_MOVE:
         insole_weighing_move(weighing, &filter->field, plan, particle, &filter->rng);
-        if (weighing->news.has_scan) {
-            break; /* weighed when the field is computed */
+        if (filter->steps.looks) {
+            insole_step_weighing_look(&filter->steps, plan, particle);
+        }
+        if (filter->in_rounds) {
+            break; /* weighed when all have walked, and the field is computed */
         }          /* fall through */
     case INSOLE_PARTICLES_WEIGH:
+        if (filter->steps.weighs) {
+            insole_step_weighing_weigh(&filter->steps, plan, cloud, filter->next);
+        }
         insole_weighing_weigh(weighing, &filter->field, particle, filter->next);
         break;
     default:
@@ -311,8 +312,10 @@ static void end_phase(insole_particle_filter_t *filter, const insole_cloud_t *cl
         end_drawing(filter, cloud);
         break;
     case INSOLE_PARTICLES_MOVE:
-        if (filter->weighing.news.has_scan) {
-            filter->phase = INSOLE_PARTICLES_FIELD;
+        if (filter->in_rounds) {
+            filter->next = 0;
+            filter->phase =
+                filter->weighing.news.has_scan ? INSOLE_PARTICLES_FIELD : INSOLE_PARTICLES_WEIGH;
             break;
         } /* fall through */
     case INSOLE_PARTICLES_WEIGH:
@@ -320,6 +323,7 @@ static void end_phase(insole_particle_filter_t *filter, const insole_cloud_t *cl
         break;
     default:
         insole_evidence_clear(&filter->weighing.news);
+        filter->steps.rss = NULL;
         filter->phase = INSOLE_PARTICLES_IDLE;
     }
 }
@@ -341,7 +345,6 @@ static void work_field(insole_particle_filter_t *filter, const insole_building_t
 {
     uint32_t pairs = (*budget + PARTICLES_PER_PAIR - 1u) / PARTICLES_PER_PAIR, left = pairs;
     if (!insole_rss_field_work(&filter->field, building, &left)) {
-        filter->next = 0;
         filter->phase = INSOLE_PARTICLES_WEIGH;
     }
     uint32_t used = (pairs - left) * PARTICLES_PER_PAIR;

@@ -9,10 +9,23 @@ void insole_weighing_begin(insole_weighing_t *weighing)
     weighing->heaviest = 0;
 }
 
+insole_status_t insole_weighing_lay(const insole_weighing_t *weighing,
+                                    const insole_cloud_source_t *reach, bool has_heading,
+                                    insole_rss_field_t *field)
+{
+    insole_rss_around_t around = {.x_m = reach->x_m - weighing->news.since.x_m,
+                                  .y_m = reach->y_m - weighing->news.since.y_m,
+                                  .sigma_m =
+                                      insole_sqrt(insole_max(reach->var_x_m2, reach->var_y_m2)),
+                                  .heading_rad = weighing->stride.heading_rad + reach->offset_rad,
+                                  .has_heading = has_heading};
+    return insole_rss_field_place(field, &around);
+}
+
 static bool kills(insole_walls_t walls, const insole_floor_plan_t *plan, insole_spot_t from,
                   const insole_particle_t *to)
 {
-    if (!plan || walls == INSOLE_WALLS_OFF) {
+    if (!plan || walls == INSOLE_WALLS_OFF || walls == INSOLE_WALLS_SOFT) {
         return false;
     }
     return walls == INSOLE_WALLS_INSIDE

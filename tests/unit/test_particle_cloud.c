@@ -34,7 +34,7 @@ static void make_cloud(uint64_t seed, uint32_t count, double x, double y, double
                                (insole_real_t)uniform(-spread, 0.0)};
         particles[i] = p;
     }
-    insole_cloud_t c = {particles, count, NULL, 0};
+    insole_cloud_t c = {particles, count, NULL, 0, NULL};
     cloud = c;
 }
 
@@ -219,7 +219,7 @@ START_TEST(a_slice_is_as_large_as_budget_and_cloud_allow)
                                         {25, 7, 25, 7},
                                         {3, 0, 3, 0},
                                         {1, UINT32_MAX, 20, UINT32_MAX - 19}};
-    insole_cloud_t twenty = {particles, 20, NULL, 0};
+    insole_cloud_t twenty = {particles, 20, NULL, 0, NULL};
     uint32_t budget = cases[_i][1];
     ck_assert_uint_eq(insole_cloud_slice(&twenty, cases[_i][0], &budget), cases[_i][2]);
     ck_assert_uint_eq(budget, cases[_i][3]);
@@ -575,7 +575,7 @@ END_TEST
 
 START_TEST(a_cloud_must_be_one)
 {
-    insole_cloud_t c = {particles, 1, NULL, 0};
+    insole_cloud_t c = {particles, 1, NULL, 0, NULL};
     ck_assert_int_eq(insole_cloud_check(&c), INSOLE_OK);
     c.count = INSOLE_CLOUD_PARTICLES_MAX;
     ck_assert_int_eq(insole_cloud_check(&c), INSOLE_OK);

@@ -8,7 +8,7 @@
  *  the same to the bit however it was sliced. Nothing here needs a second array.
  *
  *      static insole_particle_t particles[500];
- *      insole_cloud_t cloud = {particles, 500, NULL, 0};
+ *      insole_cloud_t cloud = {particles, 500, NULL, 0, NULL};
  *      insole_cloud_sum_begin(&sum, &cloud, heaviest);
  *      while (insole_cloud_sum_work(&sum, &cloud, &budget)) budget = 100;
  *      insole_cloud_fix(&sum, &fix);
@@ -46,6 +46,7 @@ typedef struct {
     uint32_t count;
     insole_spot_t *past;   /**< `count` x `past_strides`: where each, or its ancestor, was */
     uint32_t past_strides; /**< 0: no past is kept */
+    insole_spot_t *bias;   /**< `count`: by which fixes of each err, radio_bias.h; NULL: none */
 } insole_cloud_t;
 
 /** The cloud in a few numbers. */
@@ -67,6 +68,7 @@ typedef struct {
     insole_real_t sigma_wander_rad; /**< of what stays in the offset */
     insole_real_t scale_memory;     /**< how much of a scale other than 1 stays */
     insole_real_t sigma_scale;      /**< of what is added to it */
+    bool scatters_apart;            /**< scale and offset by normal numbers of their own */
 } insole_cloud_stride_t;
 
 /** Weighted sums, relative to the heaviest particle. */
@@ -117,20 +119,26 @@ static inline insole_turn_t insole_cloud_direction(const insole_particle_t *part
 }
 
 /** Moves one particle by a stride, (32). Two normal numbers are drawn, one along and one across:
- *  that of the length goes into the scale too, that of the heading into the offset. */
+ *  that of the length goes into the scale too, that of the heading into the offset; unless they
+ *  scatter apart, then there are four. */
 static inline void insole_cloud_walk(insole_particle_t *particle,
                                      const insole_cloud_stride_t *stride, insole_rng_t *rng)
 {
     insole_real_t along, across, one = INSOLE_R(1.0);
     insole_rng_normals(rng, &along, &across);
-    particle->offset_rad = insole_wrap_pi(particle->offset_rad + stride->sigma_wander_rad * across);
+    insole_real_t of_scale = along, of_offset = across;
+    if (stride->scatters_apart) {
+        insole_rng_normals(rng, &of_scale, &of_offset);
+    }
+    particle->offset_rad =
+        insole_wrap_pi(particle->offset_rad + stride->sigma_wander_rad * of_offset);
     insole_turn_t direction =
         insole_cloud_direction(particle, stride->heading_rad + stride->sigma_heading_rad * across);
     insole_real_t length_m = stride->length_m * particle->scale + stride->sigma_length_m * along;
     particle->x_m += length_m * direction.cos; /* [TwoOrder (32)] */
     particle->y_m += length_m * direction.sin;
     particle->scale =
-        one + stride->scale_memory * (particle->scale - one) + stride->sigma_scale * along;
+        one + stride->scale_memory * (particle->scale - one) + stride->sigma_scale * of_scale;
 }
 
 /** @param heaviest  number of the heaviest particle */

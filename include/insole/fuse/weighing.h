@@ -19,8 +19,10 @@
 #ifndef INSOLE_FUSE_WEIGHING_H
 #define INSOLE_FUSE_WEIGHING_H
 
+#include <stddef.h>
+
+#include "insole/fuse/cloud_source.h"
 #include "insole/fuse/evidence.h"
-#include "insole/fuse/particle_cloud.h"
 #include "insole/place/floor_plan.h"
 #include "insole/place/rss_field.h"
 
@@ -31,8 +33,9 @@ extern "C" {
 /** How a plan kills. */
 typedef enum {
     INSOLE_WALLS_OFF = 0,
-    INSOLE_WALLS_INSIDE = 1, /**< whose stride ends where nobody can be, (40) */
-    INSOLE_WALLS_CROSSES = 2 /**< whose stride meets a wall anywhere */
+    INSOLE_WALLS_INSIDE = 1,  /**< whose stride ends where nobody can be, (40) */
+    INSOLE_WALLS_CROSSES = 2, /**< whose stride meets a wall anywhere */
+    INSOLE_WALLS_SOFT = 3     /**< nobody: soft_walls.h */
 } insole_walls_t;
 
 typedef struct {
@@ -45,8 +48,21 @@ typedef struct {
     uint32_t heaviest;            /**< whose it is */
 } insole_weighing_t;
 
+/** The plan that nobody is drawn or moved aside against; NULL: none. */
+static inline const insole_floor_plan_t *insole_weighing_hard(const insole_weighing_t *weighing,
+                                                              const insole_floor_plan_t *plan)
+{
+    return weighing->walls == INSOLE_WALLS_SOFT ? NULL : plan;
+}
+
 /** No particle has been weighed. */
 void insole_weighing_begin(insole_weighing_t *weighing);
+
+/** Lays the field of the scan over where the walker was when it was heard.
+ *  @param has_heading  false: all directions are possible */
+insole_status_t insole_weighing_lay(const insole_weighing_t *weighing,
+                                    const insole_cloud_source_t *reach, bool has_heading,
+                                    insole_rss_field_t *field);
 
 /** Walks the stride, if there is one, and tells the field where the particle needs it, if there is
  *  a scan. A particle that the plan kills is marked dead, the dead stay where they are.
