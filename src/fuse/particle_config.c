@@ -51,8 +51,14 @@ insole_cloud_stride_t insole_particle_config_stride(const insole_particle_filter
                                    heading_var + news->var_heading_rad2),
         .sigma_wander_rad = config->sigma_wander_rad,
         .scale_memory = config->scale_memory,
-        .sigma_scale = config->sigma_scale * insole_sqrt(ONE - insole_square(config->scale_memory)),
-        .scatters_apart = config->scatter == INSOLE_SCATTER_APART};
+        .sigma_scale =
+            config->sigma_scale * insole_sqrt(ONE - insole_square(config->scale_memory))};
+    if (config->scatter == INSOLE_SCATTER_APART) {
+        stride.apart_wander_rad = stride.sigma_wander_rad;
+        stride.apart_scale = stride.sigma_scale;
+        stride.sigma_wander_rad = ZERO;
+        stride.sigma_scale = ZERO;
+    }
     return stride;
 }
 

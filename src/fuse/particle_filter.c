@@ -29,7 +29,8 @@ insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
         return filter ? status : INSOLE_ERR_NULL;
     }
     *filter = (insole_particle_filter_t){.config = *config};
-    filter->weighing.walls = (insole_walls_t)config->walls;
+    bool is_soft = config->walls == INSOLE_WALLS_SOFT;
+    filter->weighing.walls = is_soft ? INSOLE_WALLS_OFF : (insole_walls_t)config->walls;
     insole_rng_seed(&filter->rng, seed);
     status = insole_step_weighing_init(&filter->steps, config);
     return status != INSOLE_OK ? status : insole_rss_field_init(&filter->field, &config->field);
@@ -51,27 +52,6 @@ static void begin_drawing(insole_particle_filter_t *filter, const insole_cloud_s
     begin_phase(filter, INSOLE_PARTICLES_DRAW);
 }
 
-/* @param fix  about which, as heard by radio; NULL: none */
-static insole_status_t begin_anew(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
-                                  insole_cloud_source_t source, const insole_spot_fix_t *fix)
-{
-    insole_status_t status = insole_cloud_check(cloud);
-    if (status == INSOLE_OK) {
-        status = insole_step_weighing_start(&filter->steps, fix, cloud->bias != NULL);
-    }
-    if (status != INSOLE_OK) {
-        return refuse(filter, status);
-    }
-    insole_evidence_clear(&filter->weighing.news);
-    filter->count = cloud->count;
-    filter->has_bias = cloud->bias != NULL;
-    filter->has_fix = false;
-    filter->since_start = 0;
-    filter->deaths = 0;
-    begin_drawing(filter, &source);
-    return INSOLE_OK;
-}
-
 insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
                                              const insole_cloud_t *cloud,
                                              const insole_particle_start_t *start)
@@ -80,21 +60,30 @@ insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
     if (!filter || status != INSOLE_OK) {
         return refuse(filter, status);
     }
-    return begin_anew(filter, cloud,
-                      insole_particle_start_source(start, filter->config.sigma_scale), NULL);
+    insole_cloud_source_t source = insole_particle_start_source(start, filter->config.sigma_scale);
+    return insole_particle_filter_start_from(filter, cloud, &source, NULL);
 }
 
 insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filter,
                                                   const insole_cloud_t *cloud,
-                                                  const insole_particle_origin_t *origin)
+                                                  const insole_cloud_source_t *source,
+                                                  const insole_spot_fix_t *fix)
 {
-    insole_status_t status = insole_particle_origin_check(origin);
+    insole_status_t status = source ? insole_cloud_check(cloud) : INSOLE_ERR_NULL;
+    if (filter && status == INSOLE_OK) {
+        status = insole_step_weighing_start(&filter->steps, fix, cloud->bias != NULL);
+    }
     if (!filter || status != INSOLE_OK) {
         return refuse(filter, status);
     }
-    insole_cloud_source_t source = insole_particle_origin_source(
-        origin, filter->config.bias_sigma_m, filter->config.sigma_scale);
-    return begin_anew(filter, cloud, source, origin->by_radio ? &origin->at : NULL);
+    insole_evidence_clear(&filter->weighing.news);
+    filter->count = cloud->count;
+    filter->has_bias = cloud->bias != NULL;
+    filter->has_fix = false;
+    filter->since_start = 0;
+    filter->deaths = 0;
+    begin_drawing(filter, source);
+    return INSOLE_OK;
 }
 
 static void take_stride(insole_particle_filter_t *filter, const insole_evidence_t *news)
@@ -103,17 +92,6 @@ static void take_stride(insole_particle_filter_t *filter, const insole_evidence_
     filter->since_start++;
     filter->counts.strides++;
     insole_cloud_source_walk(&filter->reach, &filter->weighing.stride);
-}
-
-static bool take_scan(insole_particle_filter_t *filter, const insole_building_t *building,
-                      const insole_evidence_t *news)
-{
-    bool has_heading =
-        filter->since_start > 0 && filter->reach.sigma_offset_rad <= filter->config.wide_offset_rad;
-    return insole_rss_field_hear(&filter->field, building, news->readings, news->reading_count) ==
-               INSOLE_OK &&
-           insole_weighing_lay(&filter->weighing, &filter->reach, has_heading, &filter->field) ==
-               INSOLE_OK;
 }
 
 insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
@@ -135,12 +113,14 @@ insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
     if (news->has_stride) {
         take_stride(filter, news);
     }
-    filter->weighing.news.has_scan = news->has_scan && take_scan(filter, building, news);
-    filter->in_rounds = filter->weighing.news.has_scan || filter->steps.looks;
+    insole_real_t wide_rad = filter->since_start > 0 ? filter->config.wide_offset_rad : -ONE;
+    filter->weighing.news.has_scan =
+        news->has_scan && insole_weighing_listen(&filter->weighing, &filter->field, building, news,
+                                                 &filter->reach, wide_rad);
     filter->is_blind = building && !building->plan;
     filter->weighing.scan_power =
         insole_particle_config_scan_power(&filter->config, &filter->reach, filter->is_blind);
-    begin_phase(filter, INSOLE_PARTICLES_MOVE);
+    begin_phase(filter, filter->steps.is_told ? INSOLE_PARTICLES_STEP : INSOLE_PARTICLES_MOVE);
     return INSOLE_OK;
 }
 
@@ -190,11 +170,9 @@ static void point_elsewhere(insole_particle_filter_t *filter)
     const insole_particle_filter_config_t *config = &filter->config;
     const insole_anchor_fix_t *there = &filter->field.elsewhere;
     insole_cloud_source_t source = filter->reach;
-    source.x_m = there->x_m + filter->weighing.news.since.x_m;
-    source.y_m = there->y_m + filter->weighing.news.since.y_m;
-    source.var_x_m2 = there->P.xx;
-    source.cov_xy_m2 = there->P.xy;
-    source.var_y_m2 = there->P.yy;
+    insole_spot_t spot = insole_spot(there->x_m, there->y_m);
+    insole_cloud_source_put(&source, insole_spot_add(spot, filter->weighing.news.since),
+                            insole_sym2(there->P.xx, there->P.xy, there->P.yy));
     insole_cloud_source_widen(&source, ZERO, config->redraw_offset_rad);
     insole_cloud_source_mix(&filter->reach, &source, config->redraw_share);
     filter->source = source;
@@ -246,7 +224,6 @@ static void finish_one(insole_particle_filter_t *filter, const insole_cloud_t *c
                        const insole_floor_plan_t *plan)
 {
     insole_particle_t *particle = &cloud->particles[filter->next];
-    plan = insole_weighing_hard(&filter->weighing, plan);
     if (filter->spreads) {
         insole_cloud_source_t own = insole_cloud_source(&filter->fix, ZERO); /* `reach` is wider */
         insole_cloud_source_spread(&own, filter->config.spread_share, particle, plan, &filter->rng);
@@ -268,27 +245,34 @@ static void work_one(insole_particle_filter_t *filter, const insole_cloud_t *clo
     insole_particle_t *particle = &cloud->particles[filter->next];
     switch (filter->phase) {
     case INSOLE_PARTICLES_DRAW:
-        plan = filter->anywhere ? NULL : insole_weighing_hard(weighing, plan);
-        insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
+        insole_cloud_source_draw(&filter->source, particle, filter->anywhere ? NULL : plan,
+                                 &filter->rng);
         insole_step_weighing_drawn(&filter->steps, cloud, filter->next);
         insole_weighing_note(weighing, particle, filter->next);
         break;
     case INSOLE_PARTICLES_MOVE:
         insole_weighing_move(weighing, &filter->field, plan, particle, &filter->rng);
-        if (filter->steps.looks) {
-            insole_step_weighing_look(&filter->steps, plan, particle);
-        }
-        if (filter->in_rounds) {
-            break; /* weighed when all have walked, and the field is computed */
+        if (weighing->news.has_scan) {
+            break; /* weighed when the field is computed */
         }          /* fall through */
     case INSOLE_PARTICLES_WEIGH:
-        if (filter->steps.weighs) {
-            insole_step_weighing_weigh(&filter->steps, plan, cloud, filter->next);
-        }
         insole_weighing_weigh(weighing, &filter->field, particle, filter->next);
         break;
     default:
         finish_one(filter, cloud, plan);
+    }
+}
+
+/* What a phone told: all walk before any is weighed. */
+static void step_one(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                     const insole_floor_plan_t *plan)
+{
+    if (filter->phase == INSOLE_PARTICLES_STEP) {
+        insole_step_weighing_move(&filter->steps, &filter->weighing, &filter->field, plan,
+                                  &cloud->particles[filter->next], &filter->rng);
+    } else {
+        insole_step_weighing_weigh(&filter->steps, &filter->weighing, &filter->field, plan, cloud,
+                                   filter->next);
     }
 }
 
@@ -305,19 +289,27 @@ static void end_drawing(insole_particle_filter_t *filter, const insole_cloud_t *
     }
 }
 
+/* All have walked. */
+static void begin_round(insole_particle_filter_t *filter, bool field_first)
+{
+    filter->next = 0;
+    filter->phase = filter->steps.is_told ? INSOLE_PARTICLES_STEP_WEIGH : INSOLE_PARTICLES_WEIGH;
+    filter->phase = field_first ? INSOLE_PARTICLES_FIELD : filter->phase;
+}
+
 static void end_phase(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
 {
     switch (filter->phase) {
     case INSOLE_PARTICLES_DRAW:
         end_drawing(filter, cloud);
         break;
+    case INSOLE_PARTICLES_STEP:
     case INSOLE_PARTICLES_MOVE:
-        if (filter->in_rounds) {
-            filter->next = 0;
-            filter->phase =
-                filter->weighing.news.has_scan ? INSOLE_PARTICLES_FIELD : INSOLE_PARTICLES_WEIGH;
+        if (filter->weighing.news.has_scan || filter->steps.is_told) {
+            begin_round(filter, filter->weighing.news.has_scan);
             break;
         } /* fall through */
+    case INSOLE_PARTICLES_STEP_WEIGH:
     case INSOLE_PARTICLES_WEIGH:
         end_weighing(filter, cloud);
         break;
@@ -331,9 +323,15 @@ static void end_phase(insole_particle_filter_t *filter, const insole_cloud_t *cl
 static void work_particles(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
                            const insole_floor_plan_t *plan, uint32_t *budget)
 {
+    bool is_step =
+        filter->phase == INSOLE_PARTICLES_STEP || filter->phase == INSOLE_PARTICLES_STEP_WEIGH;
+    bool is_soft = filter->config.walls == INSOLE_WALLS_SOFT;
     uint32_t end = insole_cloud_slice(cloud, filter->next, budget);
+    for (; is_step && filter->next < end; filter->next++) {
+        step_one(filter, cloud, plan);
+    }
     for (; filter->next < end; filter->next++) {
-        work_one(filter, cloud, plan);
+        work_one(filter, cloud, is_soft ? NULL : plan);
     }
     if (filter->next == cloud->count) {
         end_phase(filter, cloud);
@@ -345,7 +343,7 @@ static void work_field(insole_particle_filter_t *filter, const insole_building_t
 {
     uint32_t pairs = (*budget + PARTICLES_PER_PAIR - 1u) / PARTICLES_PER_PAIR, left = pairs;
     if (!insole_rss_field_work(&filter->field, building, &left)) {
-        filter->phase = INSOLE_PARTICLES_WEIGH;
+        begin_round(filter, false);
     }
     uint32_t used = (pairs - left) * PARTICLES_PER_PAIR;
     *budget -= used < *budget ? used : *budget;

@@ -45,12 +45,12 @@ insole_cloud_source_t insole_particle_origin_source(const insole_particle_origin
                                                     insole_real_t sigma_bias_m,
                                                     insole_real_t sigma_scale)
 {
-    insole_particle_start_t start = {origin->at.spot.x_m, origin->at.spot.y_m,
-                                     origin->by_radio ? sigma_bias_m : ZERO, origin->offset_rad,
-                                     origin->sigma_offset_rad};
-    insole_cloud_source_t source = insole_particle_start_source(&start, sigma_scale);
-    source.var_x_m2 += origin->at.cov_m2.xx;
-    source.cov_xy_m2 = origin->at.cov_m2.xy;
-    source.var_y_m2 += origin->at.cov_m2.yy;
+    insole_real_t bias_m2 = origin->by_radio ? insole_square(sigma_bias_m) : ZERO;
+    insole_cloud_source_t source = {.offset_rad = insole_wrap_pi(origin->offset_rad),
+                                    .sigma_offset_rad = origin->sigma_offset_rad,
+                                    .scale = ONE,
+                                    .sigma_scale = sigma_scale};
+    insole_cloud_source_put(&source, origin->at.spot,
+                            insole_sym2_add(origin->at.cov_m2, insole_sym2_circle(bias_m2)));
     return source;
 }

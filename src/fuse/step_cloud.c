@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/step_cloud.h"
 
+#include <stddef.h>
+
 #define ZERO INSOLE_R(0.0)
 
 /* So many particles' worth of work at a time, where all must be done. */
@@ -65,8 +67,11 @@ insole_status_t insole_step_cloud_start(insole_step_cloud_t *cloud,
                                      origin->is_radio,
                                      origin->offset_rad,
                                      insole_sqrt(origin->var_offset_rad2)};
-    insole_status_t status =
-        insole_particle_filter_start_from(&cloud->filter, &cloud->cloud, &from);
+    const insole_particle_filter_config_t *config = &cloud->filter.config;
+    insole_cloud_source_t source =
+        insole_particle_origin_source(&from, config->bias_sigma_m, config->sigma_scale);
+    insole_status_t status = insole_particle_filter_start_from(
+        &cloud->filter, &cloud->cloud, &source, origin->is_radio ? &from.at : NULL);
     if (status != INSOLE_OK) {
         return refuse(cloud, status);
     }

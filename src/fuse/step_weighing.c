@@ -64,17 +64,24 @@ insole_status_t insole_step_weighing_begin(insole_step_weighing_t *steps,
     steps->heading_rad = news->has_stride ? news->heading_rad : steps->heading_rad;
     steps->rss = news->rss;
     steps->rss_since = news->rss_since;
+    steps->wanders = config->scatter == INSOLE_SCATTER_APART && news->has_stride;
     steps->looks = config->walls == INSOLE_WALLS_SOFT && has_plan && news->has_stride;
-    steps->weighs = steps->has_fix || steps->has_compass || steps->rss || steps->looks;
+    steps->is_told =
+        steps->has_fix || steps->has_compass || steps->rss || steps->looks || steps->wanders;
     insole_soft_walls_begin(&steps->soft, config->soft_depth_m, config->soft_weight,
                             config->soft_least);
     return INSOLE_OK;
 }
 
-void insole_step_weighing_look(insole_step_weighing_t *steps, const insole_floor_plan_t *plan,
-                               const insole_particle_t *particle)
+void insole_step_weighing_move(insole_step_weighing_t *steps, const insole_weighing_t *weighing,
+                               insole_rss_field_t *field, const insole_floor_plan_t *plan,
+                               insole_particle_t *particle, insole_rng_t *rng)
 {
-    if (insole_particle_lives(particle)) {
+    if (steps->wanders && insole_particle_lives(particle)) {
+        insole_cloud_wander(particle, &weighing->stride, rng);
+    }
+    insole_weighing_move(weighing, field, plan, particle, rng);
+    if (steps->looks && insole_particle_lives(particle)) {
         insole_soft_walls_look(&steps->soft, plan, particle->x_m, particle->y_m);
     }
 }
@@ -103,26 +110,34 @@ static insole_real_t log_of_compass(const insole_step_weighing_t *steps,
     return -HALF * insole_square(off * steps->per_sigma_compass);
 }
 
-void insole_step_weighing_weigh(const insole_step_weighing_t *steps,
-                                const insole_floor_plan_t *plan, const insole_cloud_t *cloud,
-                                uint32_t number)
+static insole_real_t log_of_all(const insole_step_weighing_t *steps,
+                                const insole_floor_plan_t *plan, const insole_particle_t *particle,
+                                insole_spot_t *bias)
 {
-    insole_particle_t *particle = &cloud->particles[number];
-    if (!insole_particle_lives(particle)) {
-        return;
-    }
+    insole_real_t log = ZERO;
     if (steps->looks) {
-        particle->log_weight +=
-            insole_soft_walls_weigh(&steps->soft, plan, particle->x_m, particle->y_m);
+        log += insole_soft_walls_weigh(&steps->soft, plan, particle->x_m, particle->y_m);
     }
     if (steps->has_fix) {
-        particle->log_weight +=
-            log_of_fix(steps, particle, cloud->bias ? &cloud->bias[number] : NULL);
+        log += log_of_fix(steps, particle, bias);
     }
     if (steps->has_compass) {
-        particle->log_weight += log_of_compass(steps, particle);
+        log += log_of_compass(steps, particle);
     }
     if (steps->rss) {
-        particle->log_weight += insole_rss_weigh_at(steps->rss, before(particle, steps->rss_since));
+        log += insole_rss_weigh_at(steps->rss, before(particle, steps->rss_since));
+    }
+    return log;
+}
+
+void insole_step_weighing_weigh(const insole_step_weighing_t *steps, insole_weighing_t *weighing,
+                                const insole_rss_field_t *field, const insole_floor_plan_t *plan,
+                                const insole_cloud_t *cloud, uint32_t number)
+{
+    insole_particle_t *particle = &cloud->particles[number];
+    if (insole_particle_lives(particle)) {
+        particle->log_weight +=
+            log_of_all(steps, plan, particle, cloud->bias ? &cloud->bias[number] : NULL);
+        insole_weighing_weigh(weighing, field, particle, number);
     }
 }

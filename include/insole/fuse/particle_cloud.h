@@ -68,7 +68,8 @@ typedef struct {
     insole_real_t sigma_wander_rad; /**< of what stays in the offset */
     insole_real_t scale_memory;     /**< how much of a scale other than 1 stays */
     insole_real_t sigma_scale;      /**< of what is added to it */
-    bool scatters_apart;            /**< scale and offset by normal numbers of their own */
+    insole_real_t apart_wander_rad; /**< the same two by normal numbers of their own, */
+    insole_real_t apart_scale;      /**< insole_cloud_wander() */
 } insole_cloud_stride_t;
 
 /** Weighted sums, relative to the heaviest particle. */
@@ -118,27 +119,32 @@ static inline insole_turn_t insole_cloud_direction(const insole_particle_t *part
     return insole_turn(heading_rad + particle->offset_rad);
 }
 
+/** Changes offset and scale of one particle before a stride, apart from how that scatters. */
+static inline void insole_cloud_wander(insole_particle_t *particle,
+                                       const insole_cloud_stride_t *stride, insole_rng_t *rng)
+{
+    insole_real_t of_offset, of_scale;
+    insole_rng_normals(rng, &of_offset, &of_scale);
+    particle->offset_rad =
+        insole_wrap_pi(particle->offset_rad + stride->apart_wander_rad * of_offset);
+    particle->scale += stride->apart_scale * of_scale;
+}
+
 /** Moves one particle by a stride, (32). Two normal numbers are drawn, one along and one across:
- *  that of the length goes into the scale too, that of the heading into the offset; unless they
- *  scatter apart, then there are four. */
+ *  that of the length goes into the scale too, that of the heading into the offset. */
 static inline void insole_cloud_walk(insole_particle_t *particle,
                                      const insole_cloud_stride_t *stride, insole_rng_t *rng)
 {
     insole_real_t along, across, one = INSOLE_R(1.0);
     insole_rng_normals(rng, &along, &across);
-    insole_real_t of_scale = along, of_offset = across;
-    if (stride->scatters_apart) {
-        insole_rng_normals(rng, &of_scale, &of_offset);
-    }
-    particle->offset_rad =
-        insole_wrap_pi(particle->offset_rad + stride->sigma_wander_rad * of_offset);
+    particle->offset_rad = insole_wrap_pi(particle->offset_rad + stride->sigma_wander_rad * across);
     insole_turn_t direction =
         insole_cloud_direction(particle, stride->heading_rad + stride->sigma_heading_rad * across);
     insole_real_t length_m = stride->length_m * particle->scale + stride->sigma_length_m * along;
     particle->x_m += length_m * direction.cos; /* [TwoOrder (32)] */
     particle->y_m += length_m * direction.sin;
     particle->scale =
-        one + stride->scale_memory * (particle->scale - one) + stride->sigma_scale * of_scale;
+        one + stride->scale_memory * (particle->scale - one) + stride->sigma_scale * along;
 }
 
 /** @param heaviest  number of the heaviest particle */

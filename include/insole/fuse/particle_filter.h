@@ -56,8 +56,10 @@ typedef enum {
     INSOLE_PARTICLES_IDLE = 0,
     INSOLE_PARTICLES_DRAW,
     INSOLE_PARTICLES_MOVE,
+    INSOLE_PARTICLES_STEP, /**< the same by what a phone tells; all before any is weighed */
     INSOLE_PARTICLES_FIELD,
     INSOLE_PARTICLES_WEIGH,
+    INSOLE_PARTICLES_STEP_WEIGH,
     INSOLE_PARTICLES_SUM,
     INSOLE_PARTICLES_RESAMPLE,
     INSOLE_PARTICLES_FINISH
@@ -75,7 +77,6 @@ typedef struct {
     uint32_t since_start;       /**< strides since */
     insole_weighing_t weighing; /**< what is being worked in */
     insole_step_weighing_t steps;
-    bool in_rounds; /**< all have walked before any is weighed */
 
     insole_particle_phase_t phase;
     bool is_blind; /**< no plan tells of walls */
@@ -103,12 +104,14 @@ insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
                                              const insole_cloud_t *cloud,
                                              const insole_particle_start_t *start);
 
-/** The same from a covariance, or from a fix by radio: the cloud is drawn with the covariance of
- *  the fix and its bias, and what part of it is bias is known of each particle.
- *  @return as above; INSOLE_ERR_VALUE also as insole_spot_fix_check() */
+/** The same from a source that insole_particle_origin_source() made.
+ *  @param fix  by radio, about which particles are drawn: what part of their way to it is bias is
+ *              known of each; NULL: none
+ *  @return as above, and as insole_spot_fix_check() */
 insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filter,
                                                   const insole_cloud_t *cloud,
-                                                  const insole_particle_origin_t *origin);
+                                                  const insole_cloud_source_t *source,
+                                                  const insole_spot_fix_t *fix);
 
 /** Takes news to be worked in. Readings of unknown access points are passed over.
  *  @param building  NULL: nothing is known of it

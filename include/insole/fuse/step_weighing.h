@@ -7,10 +7,10 @@
  *  from where a particle is now its own offset and scale lead back the way walked since.
  *
  *      insole_step_weighing_begin(&steps, &config, &news, learns, has_plan);
- *      for each particle that has walked:
- *          insole_step_weighing_look(&steps, &plan, &particle);
- *      when steps.weighs, for each particle:
- *          insole_step_weighing_weigh(&steps, &plan, &cloud, i);
+ *      for each particle:
+ *          insole_step_weighing_move(&steps, &weighing, &field, &plan, &particle, &rng);
+ *      for each particle:
+ *          insole_step_weighing_weigh(&steps, &weighing, &field, &plan, &cloud, i);
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -20,6 +20,7 @@
 #include "insole/fuse/particle_config.h"
 #include "insole/fuse/radio_bias.h"
 #include "insole/fuse/soft_walls.h"
+#include "insole/fuse/weighing.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -29,8 +30,9 @@ typedef struct {
     insole_radio_bias_t radio;
     bool by_radio; /**< the start was a fix, that particles are drawn about */
 
-    bool weighs; /**< there is something to weigh by */
-    bool looks;  /**< soft walls: all must have walked before */
+    bool is_told; /**< there is something here to walk or weigh by */
+    bool wanders; /**< offset and scale change apart from the stride */
+    bool looks;   /**< soft walls: all must have walked before they are weighed */
     bool has_fix, has_compass;
     insole_real_t heading_rad; /**< n: of the last stride */
     insole_real_t ahead_m;
@@ -64,14 +66,15 @@ insole_status_t insole_step_weighing_begin(insole_step_weighing_t *steps,
                                            const insole_evidence_t *news, bool learns,
                                            bool has_plan);
 
-/** First round, of a particle that has walked; needed when `looks`. */
-void insole_step_weighing_look(insole_step_weighing_t *steps, const insole_floor_plan_t *plan,
-                               const insole_particle_t *particle);
+/** First round: a particle's offset and scale change, it walks, and is looked at. */
+void insole_step_weighing_move(insole_step_weighing_t *steps, const insole_weighing_t *weighing,
+                               insole_rss_field_t *field, const insole_floor_plan_t *plan,
+                               insole_particle_t *particle, insole_rng_t *rng);
 
-/** Second round: weighs a particle, unless it is dead; needed when `weighs`. */
-void insole_step_weighing_weigh(const insole_step_weighing_t *steps,
-                                const insole_floor_plan_t *plan, const insole_cloud_t *cloud,
-                                uint32_t number);
+/** Second round: weighs a particle by all that was told, unless it is dead. */
+void insole_step_weighing_weigh(const insole_step_weighing_t *steps, insole_weighing_t *weighing,
+                                const insole_rss_field_t *field, const insole_floor_plan_t *plan,
+                                const insole_cloud_t *cloud, uint32_t number);
 
 #ifdef __cplusplus
 }

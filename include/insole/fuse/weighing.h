@@ -19,8 +19,6 @@
 #ifndef INSOLE_FUSE_WEIGHING_H
 #define INSOLE_FUSE_WEIGHING_H
 
-#include <stddef.h>
-
 #include "insole/fuse/cloud_source.h"
 #include "insole/fuse/evidence.h"
 #include "insole/place/floor_plan.h"
@@ -35,7 +33,7 @@ typedef enum {
     INSOLE_WALLS_OFF = 0,
     INSOLE_WALLS_INSIDE = 1,  /**< whose stride ends where nobody can be, (40) */
     INSOLE_WALLS_CROSSES = 2, /**< whose stride meets a wall anywhere */
-    INSOLE_WALLS_SOFT = 3     /**< nobody: soft_walls.h */
+    INSOLE_WALLS_SOFT = 3     /**< nobody, as off, but see soft_walls.h */
 } insole_walls_t;
 
 typedef struct {
@@ -48,21 +46,16 @@ typedef struct {
     uint32_t heaviest;            /**< whose it is */
 } insole_weighing_t;
 
-/** The plan that nobody is drawn or moved aside against; NULL: none. */
-static inline const insole_floor_plan_t *insole_weighing_hard(const insole_weighing_t *weighing,
-                                                              const insole_floor_plan_t *plan)
-{
-    return weighing->walls == INSOLE_WALLS_SOFT ? NULL : plan;
-}
-
 /** No particle has been weighed. */
 void insole_weighing_begin(insole_weighing_t *weighing);
 
-/** Lays the field of the scan over where the walker was when it was heard.
- *  @param has_heading  false: all directions are possible */
-insole_status_t insole_weighing_lay(const insole_weighing_t *weighing,
-                                    const insole_cloud_source_t *reach, bool has_heading,
-                                    insole_rss_field_t *field);
+/** Takes the scan that was told, and lays its field over where the walker was when it was heard.
+ *  @param news      with the caller's readings
+ *  @param wide_rad  with a larger 1-sigma of the offset all directions are possible
+ *  @return whether there is anything to weigh by */
+bool insole_weighing_listen(const insole_weighing_t *weighing, insole_rss_field_t *field,
+                            const insole_building_t *building, const insole_evidence_t *news,
+                            const insole_cloud_source_t *reach, insole_real_t wide_rad);
 
 /** Walks the stride, if there is one, and tells the field where the particle needs it, if there is
  *  a scan. A particle that the plan kills is marked dead, the dead stay where they are.
