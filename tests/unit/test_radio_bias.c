@@ -18,7 +18,8 @@ static void begin(double sigma_m, double time_s, double floor)
 
 static insole_spot_fix_t fix_of(double t_s, double x, double y, double xx, double xy, double yy)
 {
-    insole_spot_fix_t fix = {(uint64_t)(t_s * 1e6), {(insole_real_t)x, (insole_real_t)y},
+    insole_spot_fix_t fix = {(uint64_t)(t_s * 1e6),
+                             {(insole_real_t)x, (insole_real_t)y},
                              {(insole_real_t)xx, (insole_real_t)xy, (insole_real_t)yy},
                              {0, 0}};
     return fix;
@@ -75,8 +76,8 @@ static double book_take(book_t *k, const insole_spot_fix_t *fix, double x, doubl
     }
     memcpy(k->P, P, sizeof P);
     k->t_s = t_s;
-    return -0.5 * (v[0] * (W[0][0] * v[0] + W[0][1] * v[1]) +
-                   v[1] * (W[1][0] * v[0] + W[1][1] * v[1]));
+    return -0.5 *
+           (v[0] * (W[0][0] * v[0] + W[0][1] * v[1]) + v[1] * (W[1][0] * v[0] + W[1][1] * v[1]));
 }
 
 /* Weights, means and covariance over twenty fixes that come at uneven times, for three ways. */
@@ -94,9 +95,9 @@ START_TEST(it_is_the_filter_by_the_book)
     }
     for (int k = 0; k < 20; k++) {
         t_s += (double)sample_between(&rng, 1, 6);
-        insole_spot_fix_t fix = fix_of(t_s, 3.0 + k, 20.0 - k, (double)sample_between(&rng, 4, 30),
-                                       (double)sample_between(&rng, -3, 3),
-                                       (double)sample_between(&rng, 4, 30));
+        insole_spot_fix_t fix =
+            fix_of(t_s, 3.0 + k, 20.0 - k, (double)sample_between(&rng, 4, 30),
+                   (double)sample_between(&rng, -3, 3), (double)sample_between(&rng, 4, 30));
         hear(&fix);
         for (int w = 0; w < WAYS; w++) {
             double x = k + 3.0 * w, y = 20.0 - k - w, x_32 = (double)(insole_real_t)x;
@@ -104,9 +105,9 @@ START_TEST(it_is_the_filter_by_the_book)
             insole_real_t log = insole_radio_bias_weigh(
                 &radio, insole_spot((insole_real_t)x, (insole_real_t)y), &bias[w]);
             worst_note(&weight, fabs((double)log - expected), k);
-            worst_note(&mean, hypot((double)bias[w].x_m - book[w].b[0],
-                                    (double)bias[w].y_m - book[w].b[1]),
-                       k);
+            worst_note(
+                &mean,
+                hypot((double)bias[w].x_m - book[w].b[0], (double)bias[w].y_m - book[w].b[1]), k);
             worst_note(&cov, fabs((double)radio.P.xx - book[w].P[0][0]), k);
             worst_note(&cov, fabs((double)radio.P.xy - book[w].P[0][1]), k);
             worst_note(&cov, fabs((double)radio.P.yy - book[w].P[1][1]), k);
@@ -160,8 +161,8 @@ START_TEST(the_floor_by_hand)
     for (double off = 0.0; off < 60.0; off += 3.0) {
         insole_spot_t bias = {0, 0};
         double right = exp(-0.5 * (off * off / 16.0 + 1.0 / 8.0)), share = right / (right + 0.01);
-        double log_weight = (double)insole_radio_bias_weigh(
-            &radio, insole_spot((insole_real_t)-off, -1), &bias);
+        double log_weight =
+            (double)insole_radio_bias_weigh(&radio, insole_spot((insole_real_t)-off, -1), &bias);
         ASSERT_NEAR(log_weight, log(right + 0.01), 2e-6, "");
         ASSERT_NEAR(bias.x_m, share * off / 4.0, 1e-5, "m");
         ASSERT_NEAR(bias.y_m, share * 1.0 / 2.0, 1e-6, "m");
@@ -226,8 +227,8 @@ START_TEST(the_covariance_stays_one)
         hear(&fix);
         worst_require(&held, radio.P.xx >= 0 && radio.P.yy >= 0 && radio.P.xx <= INSOLE_R(1.001e6),
                       k);
-        worst_require(&held,
-                      radio.P.xy * radio.P.xy <= INSOLE_R(1.001) * radio.P.xx * radio.P.yy, k);
+        worst_require(&held, radio.P.xy * radio.P.xy <= INSOLE_R(1.001) * radio.P.xx * radio.P.yy,
+                      k);
     }
     ASSERT_ALL_HELD(held);
 }
