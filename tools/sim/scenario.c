@@ -101,7 +101,7 @@ static bool read_order(sim_scenario_t *scenario, const char *name, char *rest, i
         return sim_fail(error,
                         "'%.60s' is no order, expected start, walk, stairs, pause, turn, errands, "
                         "survey, goal, "
-                        "plan, aps, pose or key = value",
+                        "plan, aps, pose, points or key = value",
                         name);
     }
     bool is_first = scenario->orders.count == 0;
@@ -131,6 +131,26 @@ static bool read_goal(sim_scenario_t *scenario, char *rest, int line, sim_error_
         return false;
     }
     return sim_list_add(&scenario->goals, &goal) || sim_fail(error, "out of memory");
+}
+
+static bool read_points(sim_scenario_t *scenario, char *rest, sim_error_t *error)
+{
+    static const char *const names[4] = {"x", "y", "x", "y"};
+    double values[4];
+    for (int i = 0; i < 4; i++) {
+        const char *text = sim_text_field(&rest);
+        if (text == NULL) {
+            return sim_fail(error, "too few fields, expected points,x,y,x,y");
+        }
+        if (!sim_text_number(text, names[i], -1e5, 1e5, &values[i], error)) {
+            return false;
+        }
+    }
+    sim_line_t line = {{values[0], values[1]}, {values[2], values[3]}};
+    if (rest != NULL) {
+        return sim_fail(error, "too many fields, expected points,x,y,x,y");
+    }
+    return sim_list_add(&scenario->lines, &line) || sim_fail(error, "out of memory");
 }
 
 static bool read_pose(sim_scenario_t *scenario, char *rest, int line, sim_error_t *error)
@@ -179,6 +199,9 @@ static bool read_statement(sim_scenario_t *scenario, char *text, int line, sim_e
     if (strcmp(name, "goal") == 0) {
         return read_goal(scenario, rest, line, error);
     }
+    if (strcmp(name, "points") == 0) {
+        return read_points(scenario, rest, error);
+    }
     if (strcmp(name, "pose") == 0) {
         return read_pose(scenario, rest, line, error);
     }
@@ -202,6 +225,7 @@ bool sim_scenario_read(FILE *stream, sim_scenario_t *scenario, sim_error_t *erro
     sim_scenario_t empty = {.settings = sim_settings_defaults,
                             .orders = sim_list(sizeof(sim_order_t)),
                             .goals = sim_list(sizeof(sim_goal_t)),
+                            .lines = sim_list(sizeof(sim_line_t)),
                             .changes = sim_list(sizeof(sim_pose_change_t)),
                             .plan = sim_plan_empty(),
                             .aps = sim_list(sizeof(sim_ap_t))};
@@ -295,6 +319,7 @@ void sim_scenario_free(sim_scenario_t *scenario)
 {
     sim_list_free(&scenario->orders);
     sim_list_free(&scenario->goals);
+    sim_list_free(&scenario->lines);
     sim_list_free(&scenario->changes);
     sim_plan_free(&scenario->plan);
     sim_list_free(&scenario->aps);

@@ -31,7 +31,8 @@ typedef enum {
     SIM_SEED_CHANGES,
     SIM_SEED_STEEL,
     SIM_SEED_MAGNET_UNIT,
-    SIM_SEED_MAGNET_NOISE
+    SIM_SEED_MAGNET_NOISE,
+    SIM_SEED_RADIO_CROWD
 } sim_seed_stream_t;
 
 static inline void sim_seed(insole_rng_t *rng, uint64_t seed, sim_seed_stream_t stream)

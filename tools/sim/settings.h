@@ -199,6 +199,8 @@
     KEY(REAL, building, 1.0, 0.0, 1e9, "1",                                                        \
         "number of the building; 0 = another one for each seed")                                   \
     KEY(REAL, period_s, 1.0, 0.05, 3600.0, "s", "time from scan to scan")                          \
+    KEY(REAL, readings, 1.0, 1.0, 20.0, "1",                                                       \
+        "so many readings, evenly over the period, are averaged in a scan; whole")                 \
     KEY(REAL, jitter_s, 0.05, 0.0, 1.0, "s", "variation of the times of the scans, 1-sigma")       \
     KEY(REAL, missed_share, 0.02, 0.0, 1.0, "1", "scans that never come")                          \
     KEY(REAL, late_share, 0.05, 0.0, 1.0, "1", "scans that reach the log late")                    \
@@ -225,6 +227,10 @@
     KEY(REAL, rice_db, 7.0, -20.0, 60.0, "dB",                                                     \
         "fast fading: power of the direct path over the scattered")                                \
     KEY(REAL, body_db, 6.8, 0.0, 40.0, "dB", "loss straight behind the walker; 0 ahead")           \
+    KEY(REAL, crowd_db, 0.0, 0.0, 30.0, "dB",                                                      \
+        "loss by people who walk in between: nobody half of the time, else half a normal "         \
+        "distribution of this 1-sigma")                                                            \
+    KEY(REAL, crowd_s, 2.0, 0.05, 1000.0, "s", "correlation time of that")                         \
     KEY(REAL, offset_db, 2.0, 0.0, 20.0, "dB", "error of the receiver, 1-sigma")                   \
     KEY(REAL, step_db, 1.0, 0.0, 10.0, "dB", "smallest step of a reading; 0 = off")                \
     KEY(REAL, floor_dbm, -92.0, -200.0, 0.0, "dBm",                                                \

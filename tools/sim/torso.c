@@ -256,13 +256,6 @@ static void add_stance_motion(const sim_torso_t *torso, const sim_stance_t *stan
     now->lift[SIM_LEFT] += stance->side == SIM_SIDE_RIGHT ? stance->size * hump : 0.0;
 }
 
-/* As in a foot, gait.c: sets in as t^4; but for the decay its acceleration peaks at wave^2. */
-static double ringing(const sim_person_settings_t *s, double since_s)
-{
-    double swing = 1.0 - cos(2.0 * SIM_PI * s->strike_hz * since_s);
-    return exp(-since_s / s->strike_decay_s) * swing * swing / 3.0;
-}
-
 static void add_jolts(const sim_torso_t *torso, double t_s, sim_trunk_motion_t *now)
 {
     const sim_person_settings_t *s = &torso->settings;
@@ -277,7 +270,8 @@ static void add_jolts(const sim_torso_t *torso, double t_s, sim_trunk_motion_t *
             return;
         }
         if (since_s > 0.0) {
-            now->jolt_s2[jolt->foot] += jolt->size * ringing(s, since_s) / (wave * wave);
+            now->jolt_s2[jolt->foot] +=
+                jolt->size * sim_ringing(wave, s->strike_decay_s, since_s) / (wave * wave);
         }
     }
 }
