@@ -59,11 +59,12 @@ static void draw_unit(sim_magnet_t *magnet, uint64_t seed)
     sim_seed(&magnet->noise, seed, SIM_SEED_MAGNET_NOISE);
     bool full = s->model == SIM_MAGNET_FULL;
     magnet->hard_ut = normal3(&unit, full ? s->hard_ut : 0.0);
-    sim_mat3_t soft = {normal3(&unit, s->soft), normal3(&unit, s->soft), normal3(&unit, s->soft)};
-    soft.r0.x += 1.0;
-    soft.r1.y += 1.0;
-    soft.r2.z += 1.0;
-    magnet->soft = full ? soft : sim_mat3_identity();
+    magnet->soft = sim_mat3_identity();
+    if (full) {
+        magnet->soft.r0 = sim_vec3_add(magnet->soft.r0, normal3(&unit, s->soft));
+        magnet->soft.r1 = sim_vec3_add(magnet->soft.r1, normal3(&unit, s->soft));
+        magnet->soft.r2 = sim_vec3_add(magnet->soft.r2, normal3(&unit, s->soft));
+    }
 }
 
 bool sim_magnet_open(sim_magnet_t *magnet, const sim_scenario_t *scenario, uint64_t seed,

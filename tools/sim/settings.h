@@ -129,7 +129,7 @@
     KEY(REAL, leg_m, 0.9, 0.6, 1.2, "m", "height of the hips over the soles")                      \
     KEY(REAL, leg_spread, 0.05, 0.0, 0.2, "1",                                                     \
         "variation from person to person, 1-sigma, relative; steps grow with the leg")             \
-    KEY(REAL, step_spread, 0.05, 0.0, 0.2, "1",                                                    \
+    KEY(REAL, step_spread, 0.08, 0.0, 0.2, "1",                                                    \
         "variation of step length beside that of the leg, 1-sigma, relative")                      \
     KEY(REAL, bounce, 0.6, 0.0, 1.5, "1",                                                          \
         "share that knees and ankles leave of the rise and fall over stiff legs")                  \
@@ -145,7 +145,7 @@
     KEY(REAL, strike_mps2, 5.0, 0.0, 50.0, "m/s^2", "ringing of the trunk after heel strike")      \
     KEY(REAL, strike_hz, 7.0, 3.0, 50.0, "Hz", "its frequency; its double rings as well")          \
     KEY(REAL, strike_decay_s, 0.05, 0.005, 0.1, "s", "its time constant")                          \
-    KEY(REAL, spread, 0.08, 0.0, 0.3, "1", "variation from step to step, 1-sigma, relative")
+    KEY(REAL, spread, 0.15, 0.0, 0.3, "1", "variation from step to step, 1-sigma, relative")
 
 /** The phone, how it is carried and how it is held there. Axes of the phone: x to the right, y to
  *  the top edge, z out of the screen. */
@@ -164,7 +164,7 @@
     KEY(REAL, tremor_rad, 0.002, 0.0, 0.1, "rad", "trembling, rms; also of a standing walker")     \
     KEY(REAL, rock, 0.7, 0.0, 3.0, "1",                                                            \
         "in the hand: how far the forearm swings along with the bounce")                           \
-    KEY(REAL, rock_spread, 0.4, 0.0, 0.6, "1",                                                     \
+    KEY(REAL, rock_spread, 0.3, 0.0, 0.6, "1",                                                     \
         "variation of that from person to person, 1-sigma, relative")                              \
     KEY(REAL, rock_lag_s, 0.03, 0.0, 0.2, "s", "by which the forearm is late")                     \
     KEY(REAL, swing_rad, 0.32, 0.0, 1.0, "rad", "swing of the arm to each side, step of 0.7 m")    \
