@@ -169,7 +169,7 @@
     KEY(REAL, rock_lag_s, 0.03, 0.0, 0.2, "s", "by which the forearm is late")                     \
     KEY(REAL, swing_rad, 0.32, 0.0, 1.0, "rad", "swing of the arm to each side, step of 0.7 m")    \
     KEY(REAL, lift_rad, 0.25, 0.0, 1.0, "rad", "how far the thigh is lifted in its swing")         \
-    KEY(REAL, thigh_mps2, 30.0, 0.0, 100.0, "m/s^2",                                               \
+    KEY(REAL, thigh_mps2, 38.0, 0.0, 100.0, "m/s^2",                                               \
         "ringing in a pocket after the strike of that foot")                                       \
     KEY(REAL, fidgets_hz, 0.12, 0.0, 2.0, "1/s", "how often a standing walker turns it about")     \
     KEY(REAL, fidget_rad, 0.4, 0.0, 1.0, "rad", "how far, 1-sigma of each angle")                  \
