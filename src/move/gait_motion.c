@@ -155,8 +155,8 @@ static void refer(insole_gait_moments_t *moments, const insole_gait_window_t *wi
     const insole_sym3_t *S = &moments->scatter;
     insole_vec3_t with_a_z = insole_vec3_scale(insole_vec3(S->xz, S->yz, S->zz), lead.cos);
     moments->in_phase = insole_vec3_add_scaled(with_a_z, by_v, v->with_a);
-    moments->reference =
-        lead.cos * (with_a_z.z + INSOLE_R(2.0) * by_v * v->with_a.z) + by_v * by_v * var_v;
+    /* the velocity ends where it began: its product with its own rate is zero */
+    moments->reference = lead.cos * with_a_z.z + by_v * by_v * var_v;
 }
 
 static insole_status_t check(const insole_gait_motion_t *motion, const insole_gait_window_t *window)

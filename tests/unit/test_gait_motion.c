@@ -210,6 +210,9 @@ START_TEST(what_is_forgotten_or_missing_is_not_looked_at)
     over_gap.end_us = 30500000u;
     ck_assert_int_eq(insole_gait_motion_look(&motion, &over_gap, &m), INSOLE_OK);
     ck_assert(!insole_gait_motion_reaches(&motion, 9000000u));
+    over_gap.begin_us = 29000000u; /* what was there before is not taken for it */
+    over_gap.end_us = 29500000u;
+    ASSERT_UNCHANGED(motion, insole_gait_motion_look(&motion, &over_gap, &m), INSOLE_ERR_STATE);
 }
 END_TEST
 

@@ -556,6 +556,88 @@ START_TEST(device_is_where_the_phone_points)
 }
 END_TEST
 
+/* A step of its own, this long after the last one: what is gathered has faded by then, and only the
+ * step itself is looked at. */
+START_TEST(a_pause_lets_evidence_fade)
+{
+    static const int pauses_s[] = {0, 5, 3600};
+    double evidence[3];
+    for (int k = 0; k < 3; k++) {
+        trip_t trip = plain_trip(STROLL_CALL);
+        trip.noise_mps2 = 0.0;
+        begin(INSOLE_WALK_HEADING_RMPCA);
+        take_trip(&trip, 12, 0);
+        ck_assert_uint_eq(walk.row.count, 4u);
+        uint64_t from_us = walk.row.end_us + (uint64_t)pauses_s[k] * 1000000u + 10000000u;
+        walk.row.end_us += 10000000u; /* the samples between need not be made */
+        for (int i = 0; i < 100; i++) {
+            d33_t R;
+            d3_t accel;
+            stroll_moment(&trip.stroll, i * 0.02, &R, &accel);
+            insole_sym3_t P = tilt_cov(0.01);
+            (void)insole_walk_heading_push(&walk, quat_of(R), &P, real_of(stroll_force(R, accel)),
+                                           from_us + (uint64_t)i * SAMPLE_US);
+        }
+        insole_footfall_t f = {.begin_us = from_us + (pauses_s[k] ? 0u : 550000u),
+                               .end_us = from_us + (pauses_s[k] ? 550000u : 1100000u)};
+        walk.row.end_us = pauses_s[k] ? walk.row.end_us : f.begin_us - 1u;
+        insole_walked_t walked;
+        ck_assert_int_eq(insole_walk_heading_step(&walk, &f, &walked), INSOLE_OK);
+        ck_assert_uint_eq(walk.row.count, 1u);
+        evidence[k] = (double)walked.evidence;
+    }
+    double fresh = evidence[2], whole = evidence[0] - fresh;
+    ASSERT_NEAR((evidence[1] - fresh) / whole, exp(-1.0), 0.03, "");
+    ASSERT_AT_LEAST(whole, 1.0, "");
+}
+END_TEST
+
+/* A bounce alone, seen by an attitude that is off by as much as its covariance says: it looks like
+ * a motion ahead, but is no evidence for it. */
+START_TEST(a_bounce_seen_at_a_slant_is_no_evidence)
+{
+    double evidence[2];
+    for (int knows = 0; knows < 2; knows++) {
+        begin(INSOLE_WALK_HEADING_RMPCA);
+        insole_sym3_t P = tilt_cov(knows ? 0.2 : 1.0e-3);
+        for (int i = 0; i < PASSED; i++) {
+            double bounce = 3.0 * cos(2.0 * PI * i * 0.02 / 0.5);
+            d3_t force = d33_apply(turn_y(0.2), d3(0.0, 0.0, MOTION_G + bounce));
+            ck_assert_int_eq(insole_walk_heading_push(&walk, insole_quat_identity(), &P,
+                                                      real_of(force), time_of(i)),
+                             INSOLE_OK);
+        }
+        insole_footfall_t f = footfall_from(1.0, 1.5);
+        insole_walked_t walked;
+        ck_assert_int_eq(insole_walk_heading_step(&walk, &f, &walked), INSOLE_OK);
+        evidence[knows] = (double)walked.evidence;
+        if (knows) { /* the axis may lie anywhere */
+            ASSERT_AT_LEAST(walked.variance_rad2, 0.3, "rad^2");
+        }
+    }
+    ASSERT_NEAR(evidence[1], 0.5 * evidence[0], 0.05, "");
+}
+END_TEST
+
+/* The tilt that the covariance does not know counts like one that it does, about both axes. */
+START_TEST(unknown_tilt_adds_to_the_covariance)
+{
+    double variance[2];
+    for (int known = 0; known < 2; known++) {
+        begin_exact(INSOLE_WALK_HEADING_RMPCA);
+        walk.config.sigma_tilt_rad = known ? 0 : INSOLE_R(0.05);
+        ellipse_t e = {1.5, 0.5, 0.3, 0.7, 3.0};
+        push_ellipse(&e, tilt_cov(known ? 0.05 : 0.0));
+        insole_footfall_t f = footfall_from(1.0, 1.5);
+        insole_walked_t walked;
+        ck_assert_int_eq(insole_walk_heading_step(&walk, &f, &walked), INSOLE_OK);
+        variance[known] = (double)walked.variance_rad2;
+    }
+    ck_assert_double_gt(variance[1], 1.0e-4);
+    ASSERT_NEAR(variance[0], variance[1], 1.0e-5 * variance[1], "rad^2");
+}
+END_TEST
+
 /* ---- no walk ------------------------------------------------------------------------------- */
 
 static void push_still(insole_vec3_t force, double noise, insole_rng_t *rng)
@@ -798,6 +880,9 @@ Suite *insole_suite(void)
     suite_add(suite, "in the hand", a_turn_of_the_phone_does_not_matter);
     suite_add(suite, "bad stride", one_bad_stride_turns_nobody_round);
     suite_add(suite, "late", a_step_told_late_is_the_same);
+    suite_add(suite, "pause", a_pause_lets_evidence_fade);
+    suite_add(suite, "bounce", a_bounce_seen_at_a_slant_is_no_evidence);
+    suite_add(suite, "tilt", unknown_tilt_adds_to_the_covariance);
     suite_add(suite, "device", device_is_where_the_phone_points);
     suite_add_loop(suite, "no walk", who_stands_or_falls_goes_nowhere, 2);
     suite_add(suite, "shaking", shaking_is_little_trusted);

@@ -71,7 +71,8 @@ typedef enum {
         "variance over that between the axes of steps in a row; 0 = off")                         \
     KEY(REAL, keep_share, 0.75, 0.0, 0.99, "",                                                    \
         "kept from step to step of the evidence for the end, and of how axes wander")             \
-    KEY(REAL, forget_s, 5.0, 0.1, 1000.0, "s", "time constant of the evidence between two walks")         \
+    KEY(REAL, forget_s, 5.0, 0.1, 1000.0, "s",                                                    \
+        "time constant of the evidence between two walks")                                        \
     KEY(REAL, certain_evidence, 1.5, 0.0, 100.0, "", "evidence from which the end is certain")
 /* clang-format on */
 
