@@ -70,6 +70,48 @@ static void call_insole_heading(uint32_t call)
     bench_result[1] = heading.variance_rad2;
 }
 
+/* The walk's direction: level accelerations on an ellipse, steps of half a second. */
+
+static insole_walk_heading_t walk;
+static insole_footfall_t footfall;
+
+static void begin_walk_heading(void)
+{
+    insole_walk_heading_init(&walk, &insole_walk_heading_defaults);
+}
+
+static void push_walk(void)
+{
+    static const insole_sym3_t cov = {INSOLE_R(1.0e-3), INSOLE_R(0.0), INSOLE_R(0.0),
+                                      INSOLE_R(1.0e-3), INSOLE_R(0.0), INSOLE_R(1.0e-2)};
+    insole_walk_heading_push(&walk, insole_quat_identity(), &cov, imu.accel_mps2, imu.t_us);
+}
+
+static void call_insole_walk_heading_push(uint32_t call)
+{
+    (void)call;
+    push_walk();
+    bench_take_vec3(0u, walk.motion.slots[0].sum_mps2);
+}
+
+static void make_step(uint32_t call)
+{
+    for (uint32_t k = 0u; k < RATE_HZ / 2; k++) {
+        make_sample(call * (RATE_HZ / 2) + k);
+        push_walk();
+    }
+    footfall.begin_us = footfall.end_us > imu.t_us ? 0u : footfall.end_us;
+    footfall.end_us = imu.t_us;
+}
+
+static void call_insole_walk_heading_step(uint32_t call)
+{
+    insole_walked_t walked = {0};
+    (void)call;
+    insole_walk_heading_step(&walk, &footfall, &walked);
+    bench_take_vec3(0u, insole_vec3(walked.direction_rad, walked.variance_rad2, walked.evidence));
+}
+
 /* A walk in the fusions: a pace each call, a fix each call. */
 
 static insole_pace_t pace;
@@ -268,6 +310,9 @@ static const bench_case_t cases[] = {
     {"insole_attitude_push_ekf", WALK, begin_phone, make_sample, call_insole_attitude_push_ekf},
     {"insole_attitude_push_ukf", WALK, begin_phone, make_sample, call_insole_attitude_push_ukf},
     {"insole_heading", WALK, begin_phone, make_attitude, call_insole_heading},
+    {"insole_walk_heading_push", WALK, begin_walk_heading, make_sample,
+     call_insole_walk_heading_push},
+    {"insole_walk_heading_step", 40u, begin_walk_heading, make_step, call_insole_walk_heading_step},
     {"insole_step_fusion_step_ekf", 200u, begin_fusion, make_news,
      call_insole_step_fusion_step_ekf},
     {"insole_step_fusion_step_ukf", 200u, begin_fusion, make_news,
