@@ -17,6 +17,7 @@ typedef struct {
 } command_t;
 
 extern const command_t command_replay, command_score, command_compare, command_simulate,
-    command_reproduce, command_calibrate, command_config, command_plan, command_pack;
+    command_reproduce, command_calibrate, command_config, command_plan, command_pack,
+    command_train_carry;
 
 #endif

@@ -5,12 +5,19 @@
 
 #include "insole/insole.h"
 
-static const command_t *const commands[] = {&command_replay,   &command_score,
+static const command_t *const commands[] = {&command_replay,
+                                            &command_score,
 #ifdef INSOLE_HOST_HAS_SIMULATOR
-                                            &command_simulate, &command_reproduce,
+                                            &command_simulate,
+                                            &command_reproduce,
 #endif
-                                            &command_compare,  &command_calibrate, &command_config,
-                                            &command_plan,     &command_pack,      NULL};
+                                            &command_compare,
+                                            &command_calibrate,
+                                            &command_config,
+                                            &command_plan,
+                                            &command_pack,
+                                            &command_train_carry,
+                                            NULL};
 
 const command_t *const *help_commands(void)
 {
@@ -37,7 +44,7 @@ void help_program(FILE *file)
         "Commands\n",
         file);
     for (const command_t *const *command = commands; *command != NULL; command++) {
-        fprintf(file, "  %-10s %s\n", (*command)->name, (*command)->purpose);
+        fprintf(file, "  %-11s %s\n", (*command)->name, (*command)->purpose);
     }
     fputs("\n"
           "insole COMMAND --help    options and examples of a command\n"
