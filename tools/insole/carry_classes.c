@@ -21,7 +21,8 @@ static bool add_position(carry_classes_t *classes, const char *position, int num
                          failure_t *failure)
 {
     uint32_t known;
-    if (*position == '\0' || id_table_find(&classes->positions, position, &known)) {
+    if (*position == '\0' || strchr(position, '=') != NULL ||
+        id_table_find(&classes->positions, position, &known)) {
         return failure_usage(failure,
                              "insole train-carry: --classes: position \"%.40s\": expected each "
                              "once, as in  hand=hand+inhand,pocket",

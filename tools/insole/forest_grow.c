@@ -186,8 +186,8 @@ static void grow_tree(grower_t *grower, forest_bag_t *bag)
     grower->tree_root = grown->node_count;
     uint8_t root = grow_branch(grower, bag->rows, bag->count, grower->settings->depth);
     if (grown->node_count == grower->tree_root) {
-        insole_carry_node_t *node = &grown->nodes[add_node(grown)];
-        node->at_most = node->above = root;
+        size_t at = add_node(grown);
+        grown->nodes[at].at_most = grown->nodes[at].above = root;
     }
 }
 
