@@ -17,6 +17,7 @@ static const command_t *const commands[] = {&command_replay,
                                             &command_plan,
                                             &command_pack,
                                             &command_radiomap,
+                                            &command_train_carry,
                                             NULL};
 
 const command_t *const *help_commands(void)
@@ -44,7 +45,7 @@ void help_program(FILE *file)
         "Commands\n",
         file);
     for (const command_t *const *command = commands; *command != NULL; command++) {
-        fprintf(file, "  %-10s %s\n", (*command)->name, (*command)->purpose);
+        fprintf(file, "  %-11s %s\n", (*command)->name, (*command)->purpose);
     }
     fputs("\n"
           "insole COMMAND --help    options and examples of a command\n"
