@@ -34,14 +34,19 @@ static void add(insole_turn_t *sum, insole_turn_t turn)
     sum->sin = keep * sum->sin + turn.sin;
 }
 
+static void begin_block(insole_phone_compass_t *c)
+{
+    c->block = nothing;
+    c->readings = 0u;
+}
+
 static bool close_block(insole_phone_compass_t *c, uint64_t t_us)
 {
     if (c->readings == 0u || insole_seconds(c->block_us, t_us) < c->config.block_s) {
         return false;
     }
     c->block_rad = insole_atan2(c->block.sin, c->block.cos);
-    c->block = nothing;
-    c->readings = 0u;
+    begin_block(c);
     return true;
 }
 
@@ -51,9 +56,12 @@ bool insole_phone_compass_push(insole_phone_compass_t *compass, uint64_t t_us,
     const insole_phone_compass_config_t *config = &compass->config;
     bool fits = strength_ut >= config->least_ut && strength_ut <= config->most_ut &&
                 insole_abs(azimuth_rad) <= INSOLE_R(7.0);
-    if (config->use == 0 || !fits || (compass->readings > 0u && t_us < compass->block_us)) {
+    if (config->use == 0 || !fits) {
         compass->passed++;
         return false;
+    }
+    if (compass->readings > 0u && t_us < compass->block_us) {
+        begin_block(compass);
     }
     bool is_full = close_block(compass, t_us);
     insole_turn_t turn = insole_turn(config->north_rad - azimuth_rad);
@@ -68,8 +76,9 @@ bool insole_phone_compass_push(insole_phone_compass_t *compass, uint64_t t_us,
 
 void insole_phone_compass_forget(insole_phone_compass_t *compass)
 {
-    compass->block = compass->all = nothing;
-    compass->readings = compass->used = 0u;
+    begin_block(compass);
+    compass->all = nothing;
+    compass->used = 0u;
 }
 
 insole_phone_sight_t insole_phone_compass_sight(const insole_phone_compass_t *compass)

@@ -225,7 +225,8 @@ insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_u
     if (!place->is_started || place->filter.calls->answer(place->filter.state, &at) != INSOLE_OK) {
         return INSOLE_OK;
     }
-    insole_real_t way_m2 = insole_square(place->config.sigma_walk_mps * gap_s);
+    insole_real_t way_m2 =
+        insole_min(insole_square(place->config.sigma_walk_mps * gap_s), INSOLE_SPOT_MOST_M2);
     insole_real_t turn_rad2 = insole_square(place->config.sigma_gap_turn_rad_rts) * gap_s;
     const insole_step_filter_begin_t anew = {
         t_us,

@@ -221,6 +221,7 @@ static void cross_gap(insole_phone_tracker_t *t, uint64_t t_us)
         t->coasting = true;
         insole_phone_compass_forget(&t->compass);
         if (has_filter(&t->parts)) {
+            t->place.sight = insole_phone_compass_sight(&t->compass);
             (void)insole_phone_place_gap(&t->place, t_us, gap_s);
         }
     }

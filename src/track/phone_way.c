@@ -89,6 +89,11 @@ static insole_turn_t sum_of(const insole_phone_way_t *way, uint64_t from, uint64
     return sum;
 }
 
+static bool has_direction(insole_turn_t sum)
+{
+    return insole_abs(sum.cos) + insole_abs(sum.sin) >= SHORTEST;
+}
+
 insole_status_t insole_phone_way_direction(const insole_phone_way_t *way,
                                            const insole_footfall_t *footfall,
                                            insole_real_t *direction_rad)
@@ -103,9 +108,13 @@ insole_status_t insole_phone_way_direction(const insole_phone_way_t *way,
     uint64_t to = clamp(slot_of(footfall->end_us), oldest, way->slot);
     uint64_t from = clamp(slot_of(footfall->begin_us), oldest, to);
     insole_turn_t sum = sum_of(way, from, to);
-    while (insole_abs(sum.cos) + insole_abs(sum.sin) < SHORTEST && from > oldest) {
+    while (!has_direction(sum) && from > oldest) {
         from--;
         sum = sum_of(way, from, from);
+    }
+    while (!has_direction(sum) && to < way->slot) {
+        to++;
+        sum = sum_of(way, to, to);
     }
     *direction_rad = insole_atan2(sum.sin, sum.cos);
     return INSOLE_OK;

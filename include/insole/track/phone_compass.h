@@ -64,7 +64,8 @@ typedef struct {
 insole_status_t insole_phone_compass_init(insole_phone_compass_t *compass,
                                           const insole_phone_compass_config_t *config);
 
-/** @param strength_ut  length of the field
+/** A time before the block in work begins that block anew.
+ *  @param strength_ut  length of the field
  *  @param azimuth_rad  direction of its level part in n
  *  @return true when a block is full: `block_rad` is new */
 bool insole_phone_compass_push(insole_phone_compass_t *compass, uint64_t t_us,

@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/track/phone_config.h"
+
+#include <string.h>
+
+#include "near.h"
+#include "oracle.h"
+#include "suite.h"
+
+static insole_phone_tracker_config_t config;
+static int keys; /* tried */
+
+static void expect(insole_status_t expected, const char *name)
+{
+    insole_phone_tracker_config_t before = config;
+    insole_status_t status = insole_phone_config_check(&config);
+    ck_assert_msg(status == expected, "%s: %d, expected %d", name, status, expected);
+    ck_assert_mem_eq(&config, &before, sizeof config);
+}
+
+static void try_real(insole_real_t *key, insole_real_t low, insole_real_t high, const char *name)
+{
+    const insole_real_t kept = *key;
+    const insole_real_t in[] = {low, high, INSOLE_R(0.5) * (low + high)};
+    const insole_real_t out[] = {REAL_NEXT(low, -INSOLE_REAL_MAX), REAL_NEXT(high, INSOLE_REAL_MAX),
+                                 (insole_real_t)NAN, (insole_real_t)INFINITY,
+                                 -(insole_real_t)INFINITY};
+    ck_assert_msg(low < high, "%s", name);
+    for (size_t i = 0; i < sizeof in / sizeof in[0]; i++) {
+        *key = in[i];
+        expect(INSOLE_OK, name);
+    }
+    for (size_t i = 0; i < sizeof out / sizeof out[0]; i++) {
+        *key = out[i];
+        expect(INSOLE_ERR_VALUE, name);
+    }
+    *key = kept;
+    keys++;
+}
+
+static void try_choice(int32_t *key, int32_t low, int32_t high, const char *name)
+{
+    const int32_t kept = *key;
+    for (int32_t choice = low - 2; choice <= high + 2; choice++) {
+        *key = choice;
+        expect(choice < low || choice > high ? INSOLE_ERR_VALUE : INSOLE_OK, name);
+    }
+    *key = kept;
+    keys++;
+}
+
+static void try_int(int32_t *key, int32_t low, int32_t high, const char *name)
+{
+    const int32_t kept = *key;
+    const int32_t in[] = {low, low + (high - low) / 2, high};
+    const int32_t out[] = {low - 1, high + 1, INT32_MIN, INT32_MAX};
+    for (size_t i = 0; i < sizeof in / sizeof in[0]; i++) {
+        *key = in[i];
+        expect(INSOLE_OK, name);
+    }
+    for (size_t i = 0; i < sizeof out / sizeof out[0]; i++) {
+        *key = out[i];
+        expect(INSOLE_ERR_VALUE, name);
+    }
+    *key = kept;
+    keys++;
+}
+
+#define TRY_REAL(key, low, high, name)                try_real(key, INSOLE_R(low), INSOLE_R(high), name);
+#define TRY_CHOICE(key, low, high, name)              try_choice(key, low, high, name);
+#define TRY_INT(key, low, high, name)                 try_int(key, low, high, name);
+#define TRY(kind, name, value, low, high, unit, text) TRY_##kind(&part->name, low, high, #name)
+
+START_TEST(defaults_are_in_range)
+{
+    config = insole_phone_tracker_defaults;
+    expect(INSOLE_OK, "defaults");
+}
+END_TEST
+
+#define ASSERT_SAME(part, stem)                                                                    \
+    ck_assert_mem_eq(&config.part, &insole_##stem##_defaults, sizeof config.part)
+
+/* Each list is written into the right member: none is mistaken for another. */
+START_TEST(defaults_are_those_of_the_parts)
+{
+    config = insole_phone_tracker_defaults;
+    ASSERT_SAME(screen, screen);
+    ASSERT_SAME(still_bias, still_bias);
+    ASSERT_SAME(attitude, attitude);
+    ASSERT_SAME(step, step);
+    ASSERT_SAME(step_length, step_length);
+    ASSERT_SAME(compass, phone_compass);
+    ASSERT_SAME(auto_start, auto_start);
+    ASSERT_SAME(place, phone_place);
+}
+END_TEST
+
+START_TEST(every_own_key_has_its_range)
+{
+    config = insole_phone_tracker_defaults;
+    insole_phone_tracker_config_t *part = &config;
+    INSOLE_PHONE_TRACKER_KEYS(TRY)
+    ck_assert_int_ge(keys, 11);
+}
+END_TEST
+
+START_TEST(every_key_of_the_screen_has_its_range)
+{
+    config = insole_phone_tracker_defaults;
+    insole_screen_config_t *part = &config.screen;
+    INSOLE_SCREEN_KEYS(TRY)
+    ck_assert_int_ge(keys, 8);
+}
+END_TEST
+
+START_TEST(every_key_of_the_rest_bias_has_its_range)
+{
+    config = insole_phone_tracker_defaults;
+    insole_still_bias_config_t *part = &config.still_bias;
+    INSOLE_STILL_BIAS_KEYS(TRY)
+    ck_assert_int_ge(keys, 8);
+}
+END_TEST
+
+START_TEST(every_key_of_the_attitude_has_its_range)
+{
+    config = insole_phone_tracker_defaults;
+    insole_attitude_config_t *part = &config.attitude;
+    INSOLE_ATTITUDE_KEYS(TRY)
+    ck_assert_int_ge(keys, 13);
+}
+END_TEST
+
+START_TEST(every_key_of_the_steps_has_its_range)
+{
+    config = insole_phone_tracker_defaults;
+    insole_step_config_t *part = &config.step;
+    INSOLE_STEP_KEYS(TRY)
+    ck_assert_int_ge(keys, 16);
+}
+END_TEST
+
+START_TEST(every_key_of_the_lengths_has_its_range)
+{
+    config = insole_phone_tracker_defaults;
+    insole_step_length_config_t *part = &config.step_length;
+    INSOLE_STEP_LENGTH_KEYS(TRY)
+    ck_assert_int_ge(keys, 14);
+}
+END_TEST
+
+START_TEST(every_key_of_the_compass_has_its_range)
+{
+    config = insole_phone_tracker_defaults;
+    insole_phone_compass_config_t *part = &config.compass;
+    INSOLE_PHONE_COMPASS_KEYS(TRY)
+    ck_assert_int_ge(keys, 7);
+}
+END_TEST
+
+START_TEST(every_key_of_the_automatic_start_has_its_range)
+{
+    config = insole_phone_tracker_defaults;
+    insole_auto_start_config_t *part = &config.auto_start;
+    INSOLE_AUTO_START_KEYS(TRY)
+    ck_assert_int_ge(keys, 7);
+}
+END_TEST
+
+START_TEST(every_key_of_the_place_has_its_range)
+{
+    config = insole_phone_tracker_defaults;
+    insole_phone_place_config_t *part = &config.place;
+    INSOLE_PHONE_PLACE_KEYS(TRY)
+    ck_assert_int_ge(keys, 3);
+}
+END_TEST
+
+/* The suites of the parts know their own checks: none of them takes what this one refuses. */
+START_TEST(parts_take_what_is_taken_here)
+{
+    insole_screen_t screen;
+    insole_attitude_t attitude;
+    insole_step_counter_t steps;
+    insole_phone_compass_t compass;
+    insole_auto_start_t start;
+    config = insole_phone_tracker_defaults;
+    config.screen.max_rate_hz = INSOLE_R(40.0);
+    config.attitude.level_s = INSOLE_R(10.0);
+    config.step.first_steps = 8;
+    config.compass.block_s = INSOLE_R(60.0);
+    config.auto_start.fixes = 8;
+    expect(INSOLE_OK, "ends of ranges");
+    ck_assert_int_eq(insole_screen_init(&screen, &config.screen), INSOLE_OK);
+    ck_assert_int_eq(insole_attitude_init(&attitude, &config.attitude), INSOLE_OK);
+    ck_assert_int_eq(insole_step_init(&steps, &config.step), INSOLE_OK);
+    ck_assert_int_eq(insole_phone_compass_init(&compass, &config.compass), INSOLE_OK);
+    ck_assert_int_eq(insole_auto_start_init(&start, &config.auto_start), INSOLE_OK);
+}
+END_TEST
+
+#define EXPECT_REFUSED(member, value)                                                              \
+    do {                                                                                           \
+        config = insole_phone_tracker_defaults;                                                    \
+        config.member = (value);                                                                   \
+        expect(INSOLE_ERR_VALUE, #member);                                                         \
+    } while (0)
+
+/* Values that would break the arithmetic: written out, not taken from the lists. */
+START_TEST(what_cannot_work_is_refused)
+{
+    EXPECT_REFUSED(sigma_length_share, INSOLE_R(-0.01));
+    EXPECT_REFUSED(sigma_ahead_rad, INSOLE_R(-0.01));
+    EXPECT_REFUSED(shown_steps, 0);
+    EXPECT_REFUSED(radio_late_s, INSOLE_R(-0.1));
+    EXPECT_REFUSED(sigma_fix_m, INSOLE_R(1.0e20)); /* whose square is none */
+    EXPECT_REFUSED(trust_sigmas, INSOLE_R(-1.0));
+    EXPECT_REFUSED(trust_least_m, INSOLE_R(0.0));
+    EXPECT_REFUSED(gap_s, INSOLE_R(0.0));
+    EXPECT_REFUSED(lost_sigma_m, INSOLE_R(0.0));
+    EXPECT_REFUSED(compass.block_s, INSOLE_R(0.0));
+    EXPECT_REFUSED(compass.sigma_block_rad, INSOLE_R(0.0));
+    EXPECT_REFUSED(place.sigma_walk_mps, INSOLE_R(-1.0));
+    EXPECT_REFUSED(step.first_steps, 9); /* more than can be held back */
+    EXPECT_REFUSED(auto_start.fixes, 9);
+}
+END_TEST
+
+START_TEST(nothing_is_refused)
+{
+    ck_assert_int_eq(insole_phone_config_check(NULL), INSOLE_ERR_NULL);
+}
+END_TEST
+
+Suite *insole_suite(void)
+{
+    Suite *suite = suite_create("phone_config");
+    suite_add(suite, "defaults are in range", defaults_are_in_range);
+    suite_add(suite, "defaults are those of the parts", defaults_are_those_of_the_parts);
+    suite_add(suite, "own keys", every_own_key_has_its_range);
+    suite_add(suite, "keys of the screen", every_key_of_the_screen_has_its_range);
+    suite_add(suite, "keys of the rest bias", every_key_of_the_rest_bias_has_its_range);
+    suite_add(suite, "keys of the attitude", every_key_of_the_attitude_has_its_range);
+    suite_add(suite, "keys of the steps", every_key_of_the_steps_has_its_range);
+    suite_add(suite, "keys of the lengths", every_key_of_the_lengths_has_its_range);
+    suite_add(suite, "keys of the compass", every_key_of_the_compass_has_its_range);
+    suite_add(suite, "keys of the automatic start", every_key_of_the_automatic_start_has_its_range);
+    suite_add(suite, "keys of the place", every_key_of_the_place_has_its_range);
+    suite_add(suite, "parts take it", parts_take_what_is_taken_here);
+    suite_add(suite, "what cannot work", what_cannot_work_is_refused);
+    suite_add(suite, "NULL", nothing_is_refused);
+    return suite;
+}
