@@ -279,16 +279,22 @@ insole_status_t insole_phone_tracker_imu(insole_phone_tracker_t *tracker, const 
     return INSOLE_OK;
 }
 
+/* What the screen holds back at the end, one by one. */
+static void flush(insole_phone_tracker_t *t)
+{
+    insole_clean_t clean;
+    if (t->finished && !t->has_fix && insole_screen_finish(&t->screen, &clean) == INSOLE_OK) {
+        take_clean(t, &clean);
+    }
+}
+
 insole_status_t insole_phone_tracker_finish(insole_phone_tracker_t *tracker)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;
     }
-    insole_clean_t clean;
-    while (!tracker->finished && insole_screen_finish(&tracker->screen, &clean) == INSOLE_OK) {
-        take_clean(tracker, &clean);
-    }
     tracker->finished = true;
+    flush(tracker);
     return INSOLE_OK;
 }
 
@@ -386,5 +392,6 @@ insole_status_t insole_phone_tracker_next(insole_phone_tracker_t *tracker, insol
     }
     *fix = tracker->fix;
     tracker->has_fix = false;
+    flush(tracker);
     return INSOLE_OK;
 }

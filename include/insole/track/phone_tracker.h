@@ -121,7 +121,7 @@ bool insole_phone_tracker_work(insole_phone_tracker_t *tracker, uint32_t count);
  *  @return INSOLE_ERR_STATE when none is ready */
 insole_status_t insole_phone_tracker_next(insole_phone_tracker_t *tracker, insole_fix_t *fix);
 
-/** No more samples will come: the one that is held back becomes a fix. */
+/** No more samples will come: those that are held back become fixes, to be taken one by one. */
 insole_status_t insole_phone_tracker_finish(insole_phone_tracker_t *tracker);
 
 #ifdef __cplusplus
