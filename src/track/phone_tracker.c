@@ -11,6 +11,9 @@
 /* A peak without one before it has no duration yet. */
 static const uint64_t LONGEST_STEP_US = 1000000u;
 
+/* A scan so far ahead of the samples has a stamp that cannot be. */
+static const uint64_t SCAN_AHEAD_US = 60000000u;
+
 static bool has_filter(const insole_phone_parts_t *parts)
 {
     return parts->filter.calls != NULL;
@@ -353,11 +356,20 @@ static bool trusted_area(const insole_phone_tracker_t *t, insole_trusted_area_t 
                                       t->config.trust_least_m, area) == INSOLE_OK;
 }
 
+/* The filter would take no fix of an earlier time after it. */
+static bool is_far_ahead(const insole_phone_tracker_t *t, uint64_t t_us)
+{
+    return has_filter(&t->parts) && t->has_time && t_us > t->t_us && t_us - t->t_us > SCAN_AHEAD_US;
+}
+
 insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
                                           const insole_scan_t *scan)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;
+    }
+    if (scan && is_far_ahead(tracker, scan->t_us)) {
+        return answer(tracker, INSOLE_ERR_TIME);
     }
     insole_trusted_area_t area;
     const insole_trusted_area_t *near = trusted_area(tracker, &area) ? &area : NULL;
