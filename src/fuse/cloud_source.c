@@ -26,6 +26,16 @@ insole_cloud_source_t insole_cloud_source(const insole_cloud_fix_t *fix, insole_
     return source;
 }
 
+void insole_cloud_source_put(insole_cloud_source_t *source, insole_spot_t spot,
+                             insole_sym2_t cov_m2)
+{
+    source->x_m = spot.x_m;
+    source->y_m = spot.y_m;
+    source->var_x_m2 = cov_m2.xx;
+    source->cov_xy_m2 = cov_m2.xy;
+    source->var_y_m2 = cov_m2.yy;
+}
+
 insole_turn_t insole_cloud_source_turn(const insole_cloud_source_t *source)
 {
     insole_real_t length =
@@ -41,9 +51,9 @@ void insole_cloud_source_walk(insole_cloud_source_t *source, const insole_cloud_
     insole_turn_t direction = insole_turn(stride->heading_rad);
     insole_spot_t way = {stride->length_m * direction.cos, stride->length_m * direction.sin};
     way = insole_turn_way(insole_cloud_source_turn(source), way);
-    insole_real_t var_rad2 = insole_square(source->sigma_offset_rad) +
-                             insole_square(stride->sigma_heading_rad) +
-                             insole_square(stride->sigma_wander_rad);
+    insole_real_t var_rad2 =
+        insole_square(source->sigma_offset_rad) + insole_square(stride->sigma_heading_rad) +
+        insole_square(stride->sigma_wander_rad) + insole_square(stride->apart_wander_rad);
     insole_real_t var_m2 = insole_square(stride->sigma_length_m) +
                            insole_square(stride->length_m) * insole_min(var_rad2, ONE);
     source->x_m += way.x_m;

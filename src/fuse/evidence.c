@@ -9,6 +9,11 @@
 #define SIGMA_MIN_M  INSOLE_R(1e-6)
 #define LENGTH_MAX_M INSOLE_R(100.0)
 
+#define VAR_LENGTH_MAX_M2    INSOLE_R(100.0)
+#define VAR_HEADING_MAX_RAD2 INSOLE_R(10.0)
+#define COMPASS_MIN_RAD      INSOLE_R(0.001)
+#define COMPASS_MAX_RAD      INSOLE_R(100.0)
+
 /* Squares of more would not be finite; nothing is gained by telling such weights apart. */
 #define SIGMAS_MAX INSOLE_R(1e12)
 
@@ -52,6 +57,18 @@ static bool is_position(insole_spot_t position, insole_real_t sigma_m)
     return insole_spot_is_finite(position) && is_sigma(sigma_m);
 }
 
+static bool is_scatter(insole_real_t var_length_m2, insole_real_t var_heading_rad2)
+{
+    return var_length_m2 >= ZERO && var_length_m2 <= VAR_LENGTH_MAX_M2 &&
+           var_heading_rad2 >= ZERO && var_heading_rad2 <= VAR_HEADING_MAX_RAD2;
+}
+
+static bool is_compass(insole_real_t offset_rad, insole_real_t sigma_rad)
+{
+    return insole_is_finite(offset_rad) && sigma_rad >= COMPASS_MIN_RAD &&
+           sigma_rad <= COMPASS_MAX_RAD;
+}
+
 static bool is_pointed(const insole_evidence_t *evidence)
 {
     return evidence->readings || evidence->reading_count == 0 || !evidence->has_scan;
@@ -66,6 +83,16 @@ static bool are_ranges(const insole_evidence_t *evidence)
     return fit;
 }
 
+/* What a phone tells. */
+static bool is_phone(const insole_evidence_t *evidence)
+{
+    return is_scatter(evidence->var_length_m2, evidence->var_heading_rad2) &&
+           (!evidence->fix || insole_spot_fix_check(evidence->fix) == INSOLE_OK) &&
+           (!evidence->rss || insole_spot_is_finite(evidence->rss_since)) &&
+           (!evidence->has_compass ||
+            is_compass(evidence->compass_rad, evidence->sigma_compass_rad));
+}
+
 insole_status_t insole_evidence_check(const insole_evidence_t *evidence)
 {
     if (!evidence || !is_pointed(evidence)) {
@@ -76,7 +103,7 @@ insole_status_t insole_evidence_check(const insole_evidence_t *evidence)
     bool scan = insole_spot_is_finite(evidence->since);
     bool fits = (stride || !evidence->has_stride) && (position || !evidence->has_position) &&
                 (scan || !evidence->has_scan);
-    return fits && are_ranges(evidence) ? INSOLE_OK : INSOLE_ERR_VALUE;
+    return fits && are_ranges(evidence) && is_phone(evidence) ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 
 insole_status_t insole_evidence_stride(insole_evidence_t *evidence, insole_real_t length_m,
@@ -92,6 +119,20 @@ insole_status_t insole_evidence_stride(insole_evidence_t *evidence, insole_real_
     evidence->heading_rad = insole_wrap_pi(heading_rad);
     evidence->turn_rad = insole_wrap_pi(turn_rad);
     evidence->has_stride = true;
+    return INSOLE_OK;
+}
+
+insole_status_t insole_evidence_scatter(insole_evidence_t *evidence, insole_real_t var_length_m2,
+                                        insole_real_t var_heading_rad2)
+{
+    if (!evidence) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!is_scatter(var_length_m2, var_heading_rad2)) {
+        return INSOLE_ERR_VALUE;
+    }
+    evidence->var_length_m2 = var_length_m2;
+    evidence->var_heading_rad2 = var_heading_rad2;
     return INSOLE_OK;
 }
 
@@ -142,6 +183,50 @@ insole_status_t insole_evidence_scan(insole_evidence_t *evidence, const insole_r
     return INSOLE_OK;
 }
 
+insole_status_t insole_evidence_fix(insole_evidence_t *evidence, const insole_spot_fix_t *fix)
+{
+    if (!evidence || !fix) {
+        return INSOLE_ERR_NULL;
+    }
+    if (insole_spot_fix_check(fix) != INSOLE_OK) {
+        return INSOLE_ERR_VALUE;
+    }
+    evidence->fix = fix;
+    return INSOLE_OK;
+}
+
+insole_status_t insole_evidence_compass(insole_evidence_t *evidence, insole_real_t offset_rad,
+                                        insole_real_t sigma_rad)
+{
+    if (!evidence) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!is_compass(offset_rad, sigma_rad)) {
+        return INSOLE_ERR_VALUE;
+    }
+    evidence->compass_rad = insole_wrap_pi(offset_rad);
+    evidence->sigma_compass_rad = sigma_rad;
+    evidence->has_compass = true;
+    return INSOLE_OK;
+}
+
+insole_status_t insole_evidence_rss(insole_evidence_t *evidence, const insole_rss_weigh_t *rss,
+                                    insole_spot_t since)
+{
+    if (!evidence || !rss) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!insole_spot_is_finite(since)) {
+        return INSOLE_ERR_VALUE;
+    }
+    if (!insole_rss_weigh_is_ready(rss)) {
+        return INSOLE_ERR_STATE;
+    }
+    evidence->rss = rss;
+    evidence->rss_since = since;
+    return INSOLE_OK;
+}
+
 void insole_evidence_turn(insole_evidence_t *evidence, insole_turn_t turn)
 {
     if (!evidence) {
@@ -151,6 +236,9 @@ void insole_evidence_turn(insole_evidence_t *evidence, insole_turn_t turn)
         evidence->range[i].since = insole_turn_way(turn, evidence->range[i].since);
     }
     evidence->since = insole_turn_way(turn, evidence->since);
+    evidence->readings = NULL;
+    evidence->fix = NULL;
+    evidence->rss = NULL;
 }
 
 static insole_real_t in_sigmas(insole_real_t off_m, insole_real_t sigma_m)

@@ -138,8 +138,11 @@ static insole_spot_t *past_of(const insole_cloud_t *cloud, uint32_t particle)
     return &cloud->past[(size_t)particle * cloud->past_strides];
 }
 
-static void copy_past(const insole_cloud_t *cloud, uint32_t to, uint32_t from)
+static void copy_rows(const insole_cloud_t *cloud, uint32_t to, uint32_t from)
 {
+    if (cloud->bias) {
+        cloud->bias[to] = cloud->bias[from];
+    }
     for (uint32_t k = 0; k < cloud->past_strides; k++) {
         past_of(cloud, to)[k] = past_of(cloud, from)[k];
     }
@@ -159,7 +162,7 @@ static void copy_one(insole_cloud_comb_t *comb, const insole_cloud_t *cloud)
         source->log_weight -= ONE;
         *place = *source;
         place->log_weight = ONE;
-        copy_past(cloud, comb->next, comb->source);
+        copy_rows(cloud, comb->next, comb->source);
     }
 }
 

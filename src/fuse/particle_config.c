@@ -3,7 +3,8 @@
 
 #include <stddef.h>
 
-#define ONE INSOLE_R(1.0)
+#define ZERO INSOLE_R(0.0)
+#define ONE  INSOLE_R(1.0)
 
 /* Where walls are not known a cloud must be so much wider for scans to say much. */
 #define BLIND_WIDER INSOLE_R(2.5)
@@ -15,6 +16,11 @@ const insole_particle_filter_config_t insole_particle_filter_defaults = {
 const insole_particle_filter_config_t insole_particle_filter_two_order =
     INSOLE_PARTICLE_FILTER_TWO_ORDER;
 
+const insole_particle_filter_config_t insole_particle_filter_phone = INSOLE_PARTICLE_FILTER_PHONE;
+
+const insole_particle_filter_config_t insole_particle_filter_phone_plain =
+    INSOLE_PARTICLE_FILTER_PHONE_PLAIN;
+
 insole_status_t insole_particle_config_check(const insole_particle_filter_config_t *config)
 {
     if (!config) {
@@ -24,6 +30,36 @@ insole_status_t insole_particle_config_check(const insole_particle_filter_config
         return INSOLE_ERR_VALUE;
     }
     return insole_rss_field_check(&config->field);
+}
+
+/* A 1-sigma with variances added to it; as it is, to the bit, when there are none. */
+static insole_real_t wider(insole_real_t sigma, insole_real_t variances)
+{
+    return variances > ZERO ? insole_sqrt(insole_square(sigma) + variances) : sigma;
+}
+
+insole_cloud_stride_t insole_particle_config_stride(const insole_particle_filter_config_t *config,
+                                                    const insole_evidence_t *news)
+{
+    insole_real_t length_var = insole_square(config->length_share * news->length_m);
+    insole_real_t heading_var = insole_square(config->sigma_heading_rad);
+    insole_cloud_stride_t stride = {
+        .length_m = news->length_m,
+        .sigma_length_m = wider(config->sigma_length_m, length_var + news->var_length_m2),
+        .heading_rad = news->heading_rad,
+        .sigma_heading_rad = wider(config->turn_share * insole_abs(news->turn_rad),
+                                   heading_var + news->var_heading_rad2),
+        .sigma_wander_rad = config->sigma_wander_rad,
+        .scale_memory = config->scale_memory,
+        .sigma_scale =
+            config->sigma_scale * insole_sqrt(ONE - insole_square(config->scale_memory))};
+    if (config->scatter == INSOLE_SCATTER_APART) {
+        stride.apart_wander_rad = stride.sigma_wander_rad;
+        stride.apart_scale = stride.sigma_scale;
+        stride.sigma_wander_rad = ZERO;
+        stride.sigma_scale = ZERO;
+    }
+    return stride;
 }
 
 insole_real_t insole_particle_config_scan_power(const insole_particle_filter_config_t *config,

@@ -4,10 +4,7 @@
 #include <stddef.h>
 
 #define ZERO INSOLE_R(0.0)
-#define HALF INSOLE_R(0.5)
 #define ONE  INSOLE_R(1.0)
-
-#define SIGMA_MAX_M INSOLE_R(1e4)
 
 /* A pair of a node and an access point costs about so many particles. */
 #define PARTICLES_PER_PAIR 3u
@@ -17,8 +14,10 @@
 
 static insole_status_t refuse(insole_particle_filter_t *filter, insole_status_t status)
 {
-    filter->counts.refused++;
-    return status;
+    if (filter) {
+        filter->counts.refused++;
+    }
+    return filter ? status : INSOLE_ERR_NULL;
 }
 
 insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
@@ -30,19 +29,14 @@ insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
         return filter ? status : INSOLE_ERR_NULL;
     }
     *filter = (insole_particle_filter_t){.config = *config};
-    filter->weighing.walls = (insole_walls_t)config->walls;
+    bool is_soft = config->walls == INSOLE_WALLS_SOFT;
+    filter->weighing.walls = is_soft ? INSOLE_WALLS_OFF : (insole_walls_t)config->walls;
     insole_rng_seed(&filter->rng, seed);
-    return insole_rss_field_init(&filter->field, &config->field);
+    status = insole_step_weighing_init(&filter->steps, config);
+    return status != INSOLE_OK ? status : insole_rss_field_init(&filter->field, &config->field);
 }
 
 /* ---- what is told ---- */
-
-static bool is_start(const insole_particle_start_t *start)
-{
-    return insole_is_finite(start->x_m) && insole_is_finite(start->y_m) &&
-           insole_is_finite(start->offset_rad) && start->sigma_m >= ZERO &&
-           start->sigma_m <= SIGMA_MAX_M && start->sigma_offset_rad >= ZERO;
-}
 
 static void begin_phase(insole_particle_filter_t *filter, insole_particle_phase_t phase)
 {
@@ -62,92 +56,71 @@ insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
                                              const insole_cloud_t *cloud,
                                              const insole_particle_start_t *start)
 {
-    if (!filter) {
-        return INSOLE_ERR_NULL;
+    insole_status_t status = insole_particle_start_check(start);
+    if (!filter || status != INSOLE_OK) {
+        return refuse(filter, status);
     }
-    insole_status_t status = start ? insole_cloud_check(cloud) : INSOLE_ERR_NULL;
-    if (status != INSOLE_OK || !is_start(start)) {
-        return refuse(filter, status != INSOLE_OK ? status : INSOLE_ERR_VALUE);
+    insole_cloud_source_t source = insole_particle_start_source(start, filter->config.sigma_scale);
+    return insole_particle_filter_start_from(filter, cloud, &source, NULL);
+}
+
+insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filter,
+                                                  const insole_cloud_t *cloud,
+                                                  const insole_cloud_source_t *source,
+                                                  const insole_spot_fix_t *fix)
+{
+    insole_status_t status = source ? insole_cloud_check(cloud) : INSOLE_ERR_NULL;
+    if (filter && status == INSOLE_OK) {
+        status = insole_step_weighing_start(&filter->steps, fix, cloud->bias != NULL);
     }
-    insole_cloud_fix_t known = {.x_m = start->x_m,
-                                .y_m = start->y_m,
-                                .var_x_m2 = insole_square(start->sigma_m),
-                                .var_y_m2 = insole_square(start->sigma_m),
-                                .offset_rad = insole_wrap_pi(start->offset_rad),
-                                .scale = ONE};
-    insole_cloud_source_t source = insole_cloud_source(&known, filter->config.sigma_scale);
-    source.sigma_offset_rad = start->sigma_offset_rad;
+    if (!filter || status != INSOLE_OK) {
+        return refuse(filter, status);
+    }
     insole_evidence_clear(&filter->weighing.news);
     filter->count = cloud->count;
+    filter->has_bias = cloud->bias != NULL;
     filter->has_fix = false;
     filter->since_start = 0;
     filter->deaths = 0;
-    filter->redraw_every = 0;
-    begin_drawing(filter, &source);
+    begin_drawing(filter, source);
     return INSOLE_OK;
 }
 
 static void take_stride(insole_particle_filter_t *filter, const insole_evidence_t *news)
 {
-    const insole_particle_filter_config_t *config = &filter->config;
-    insole_cloud_stride_t stride = {
-        .length_m = news->length_m,
-        .sigma_length_m = config->sigma_length_m,
-        .heading_rad = news->heading_rad,
-        .sigma_heading_rad = config->turn_share * insole_abs(news->turn_rad),
-        .sigma_wander_rad = config->sigma_wander_rad,
-        .scale_memory = config->scale_memory,
-        .sigma_scale =
-            config->sigma_scale * insole_sqrt(ONE - insole_square(config->scale_memory))};
-    filter->weighing.stride = stride;
+    filter->weighing.stride = insole_particle_config_stride(&filter->config, news);
     filter->since_start++;
     filter->counts.strides++;
-    insole_cloud_source_walk(&filter->reach, &stride);
-}
-
-static bool lay_field(insole_particle_filter_t *filter)
-{
-    const insole_cloud_source_t *reach = &filter->reach;
-    const insole_weighing_t *weighing = &filter->weighing;
-    insole_rss_around_t around = {
-        .x_m = reach->x_m - weighing->news.since.x_m,
-        .y_m = reach->y_m - weighing->news.since.y_m,
-        .sigma_m = insole_sqrt(insole_max(reach->var_x_m2, reach->var_y_m2)),
-        .heading_rad = weighing->stride.heading_rad + reach->offset_rad,
-        .has_heading =
-            filter->since_start > 0 && reach->sigma_offset_rad <= filter->config.wide_offset_rad};
-    return insole_rss_field_place(&filter->field, &around) == INSOLE_OK;
+    insole_cloud_source_walk(&filter->reach, &filter->weighing.stride);
 }
 
 insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
                                              const insole_building_t *building,
                                              const insole_evidence_t *news)
 {
-    if (!filter) {
-        return INSOLE_ERR_NULL;
-    }
+    bool is_idle = filter && filter->count > 0 && filter->phase == INSOLE_PARTICLES_IDLE;
     insole_status_t status = insole_evidence_check(news);
+    status = status == INSOLE_OK && !is_idle ? INSOLE_ERR_STATE : status;
+    if (status == INSOLE_OK) {
+        status = insole_step_weighing_begin(&filter->steps, &filter->config, news, filter->has_bias,
+                                            building && building->plan);
+    }
     if (status != INSOLE_OK) {
         return refuse(filter, status);
     }
-    if (filter->count == 0 || filter->phase != INSOLE_PARTICLES_IDLE) {
-        return refuse(filter, INSOLE_ERR_STATE);
-    }
-    insole_evidence_t *taken = &filter->weighing.news;
-    *taken = *news;
-    taken->readings = NULL;
-    insole_evidence_turn(taken, insole_cloud_source_turn(&filter->reach));
+    filter->weighing.news = *news;
+    insole_evidence_turn(&filter->weighing.news, insole_cloud_source_turn(&filter->reach));
     if (news->has_stride) {
         take_stride(filter, news);
     }
-    taken->has_scan = news->has_scan &&
-                      insole_rss_field_hear(&filter->field, building, news->readings,
-                                            news->reading_count) == INSOLE_OK &&
-                      lay_field(filter);
+    insole_real_t wide_rad = filter->since_start > 0 ? filter->config.wide_offset_rad : -ONE;
+    filter->weighing.news.has_scan =
+        news->has_scan && insole_weighing_listen(&filter->weighing, &filter->field, building, news,
+                                                 &filter->reach, wide_rad);
     filter->is_blind = building && !building->plan;
     filter->weighing.scan_power =
         insole_particle_config_scan_power(&filter->config, &filter->reach, filter->is_blind);
-    begin_phase(filter, INSOLE_PARTICLES_MOVE);
+    begin_phase(filter, filter->steps.is_told ? INSOLE_PARTICLES_STEP : INSOLE_PARTICLES_MOVE);
     return INSOLE_OK;
 }
 
@@ -167,6 +140,7 @@ static void draw_wider(insole_particle_filter_t *filter, insole_cloud_source_t s
     insole_cloud_source_widen(&source, wider * filter->config.recover_sigma_m,
                               wider * filter->config.recover_offset_rad);
     filter->deaths += filter->deaths < DEATHS_MAX ? 1u : 0u;
+    insole_step_weighing_start(&filter->steps, NULL, false);
     begin_drawing(filter, &source);
 }
 
@@ -196,15 +170,13 @@ static void point_elsewhere(insole_particle_filter_t *filter)
     const insole_particle_filter_config_t *config = &filter->config;
     const insole_anchor_fix_t *there = &filter->field.elsewhere;
     insole_cloud_source_t source = filter->reach;
-    source.x_m = there->x_m + filter->weighing.news.since.x_m;
-    source.y_m = there->y_m + filter->weighing.news.since.y_m;
-    source.var_x_m2 = there->P.xx;
-    source.cov_xy_m2 = there->P.xy;
-    source.var_y_m2 = there->P.yy;
+    insole_spot_t spot = insole_spot(there->x_m, there->y_m);
+    insole_cloud_source_put(&source, insole_spot_add(spot, filter->weighing.news.since),
+                            insole_sym2(there->P.xx, there->P.xy, there->P.yy));
     insole_cloud_source_widen(&source, ZERO, config->redraw_offset_rad);
     insole_cloud_source_mix(&filter->reach, &source, config->redraw_share);
     filter->source = source;
-    filter->redraw_every = (uint32_t)(ONE / config->redraw_share + HALF);
+    filter->redraw_every = (uint32_t)(ONE / config->redraw_share + INSOLE_R(0.5));
     filter->counts.redrawn++;
 }
 
@@ -253,8 +225,7 @@ static void finish_one(insole_particle_filter_t *filter, const insole_cloud_t *c
 {
     insole_particle_t *particle = &cloud->particles[filter->next];
     if (filter->spreads) {
-        insole_cloud_source_t own =
-            insole_cloud_source(&filter->fix, ZERO); /* `reach` holds more */
+        insole_cloud_source_t own = insole_cloud_source(&filter->fix, ZERO); /* `reach` is wider */
         insole_cloud_source_spread(&own, filter->config.spread_share, particle, plan, &filter->rng);
     }
     if (filter->redraw_every > 0 && filter->next % filter->redraw_every == 0) {
@@ -276,6 +247,7 @@ static void work_one(insole_particle_filter_t *filter, const insole_cloud_t *clo
     case INSOLE_PARTICLES_DRAW:
         insole_cloud_source_draw(&filter->source, particle, filter->anywhere ? NULL : plan,
                                  &filter->rng);
+        insole_step_weighing_drawn(&filter->steps, cloud, filter->next);
         insole_weighing_note(weighing, particle, filter->next);
         break;
     case INSOLE_PARTICLES_MOVE:
@@ -288,6 +260,19 @@ static void work_one(insole_particle_filter_t *filter, const insole_cloud_t *clo
         break;
     default:
         finish_one(filter, cloud, plan);
+    }
+}
+
+/* What a phone told: all walk before any is weighed. */
+static void step_one(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                     const insole_floor_plan_t *plan)
+{
+    if (filter->phase == INSOLE_PARTICLES_STEP) {
+        insole_step_weighing_move(&filter->steps, &filter->weighing, &filter->field, plan,
+                                  &cloud->particles[filter->next], &filter->rng);
+    } else {
+        insole_step_weighing_weigh(&filter->steps, &filter->weighing, &filter->field, plan, cloud,
+                                   filter->next);
     }
 }
 
@@ -304,22 +289,33 @@ static void end_drawing(insole_particle_filter_t *filter, const insole_cloud_t *
     }
 }
 
+/* All have walked. */
+static void begin_round(insole_particle_filter_t *filter, bool field_first)
+{
+    filter->next = 0;
+    filter->phase = filter->steps.is_told ? INSOLE_PARTICLES_STEP_WEIGH : INSOLE_PARTICLES_WEIGH;
+    filter->phase = field_first ? INSOLE_PARTICLES_FIELD : filter->phase;
+}
+
 static void end_phase(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
 {
     switch (filter->phase) {
     case INSOLE_PARTICLES_DRAW:
         end_drawing(filter, cloud);
         break;
+    case INSOLE_PARTICLES_STEP:
     case INSOLE_PARTICLES_MOVE:
-        if (filter->weighing.news.has_scan) {
-            filter->phase = INSOLE_PARTICLES_FIELD;
+        if (filter->weighing.news.has_scan || filter->steps.is_told) {
+            begin_round(filter, filter->weighing.news.has_scan);
             break;
         } /* fall through */
+    case INSOLE_PARTICLES_STEP_WEIGH:
     case INSOLE_PARTICLES_WEIGH:
         end_weighing(filter, cloud);
         break;
     default:
         insole_evidence_clear(&filter->weighing.news);
+        filter->steps.rss = NULL;
         filter->phase = INSOLE_PARTICLES_IDLE;
     }
 }
@@ -327,9 +323,15 @@ static void end_phase(insole_particle_filter_t *filter, const insole_cloud_t *cl
 static void work_particles(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
                            const insole_floor_plan_t *plan, uint32_t *budget)
 {
+    bool is_step =
+        filter->phase == INSOLE_PARTICLES_STEP || filter->phase == INSOLE_PARTICLES_STEP_WEIGH;
+    bool is_soft = filter->config.walls == INSOLE_WALLS_SOFT;
     uint32_t end = insole_cloud_slice(cloud, filter->next, budget);
+    for (; is_step && filter->next < end; filter->next++) {
+        step_one(filter, cloud, plan);
+    }
     for (; filter->next < end; filter->next++) {
-        work_one(filter, cloud, plan);
+        work_one(filter, cloud, is_soft ? NULL : plan);
     }
     if (filter->next == cloud->count) {
         end_phase(filter, cloud);
@@ -341,8 +343,7 @@ static void work_field(insole_particle_filter_t *filter, const insole_building_t
 {
     uint32_t pairs = (*budget + PARTICLES_PER_PAIR - 1u) / PARTICLES_PER_PAIR, left = pairs;
     if (!insole_rss_field_work(&filter->field, building, &left)) {
-        filter->next = 0;
-        filter->phase = INSOLE_PARTICLES_WEIGH;
+        begin_round(filter, false);
     }
     uint32_t used = (pairs - left) * PARTICLES_PER_PAIR;
     *budget -= used < *budget ? used : *budget;

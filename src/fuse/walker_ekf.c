@@ -4,7 +4,6 @@
 #define ZERO INSOLE_R(0.0)
 #define HALF INSOLE_R(0.5)
 #define ONE  INSOLE_R(1.0)
-#define TWO  INSOLE_R(2.0)
 
 /* A fix so many gates off tells nothing, and squares of more leave a float. */
 static const insole_real_t FARTHEST_OFF = INSOLE_R(1.0e9);
@@ -288,15 +287,15 @@ insole_status_t insole_walker_ekf_fix(insole_walker_ekf_t *walker, const insole_
  * exactly the moments of a direction that is wrong by so much. */
 static void learn_c(insole_walker_ekf_t *walker, insole_turn_t told, insole_real_t var_rad2)
 {
-    insole_real_t e = insole_exp(-var_rad2);
-    insole_real_t across = insole_max(HALF * (ONE / (e * e) - ONE), var_rad2);
-    insole_real_t along = HALF * insole_square(ONE - e) / (e * (TWO - e));
-    along += insole_square(walker->config.sigma_scale);
+    insole_real_t e = insole_exp(-var_rad2), v = insole_square(walker->config.sigma_scale);
+    insole_real_t most = HALF * (ONE + v); /* variances when nothing is known */
+    insole_real_t scatter = HALF * insole_square(ONE - e) + HALF * v * (ONE + e * e);
+    insole_real_t grow = most / insole_max(e * (ONE - most * e), LEAST_RAD2);
+    insole_real_t across = insole_max(most * (ONE / (e * e) - ONE), var_rad2);
     insole_spot_t c = {walker->state.c.cos, walker->state.c.sin}, ahead = {told.cos, told.sin};
-    insole_real_t length = ONE / (insole_sqrt(e) * (TWO - e));
     insole_walker_seen_t seen[2] = {
-        {insole_walker_column(INSOLE_WALKER_TURN, ahead), length - insole_spot_dot(ahead, c),
-         along},
+        {insole_walker_column(INSOLE_WALKER_TURN, ahead),
+         grow * insole_sqrt(e) - insole_spot_dot(ahead, c), grow * scatter},
         {insole_walker_column(INSOLE_WALKER_TURN, insole_spot_left(ahead)),
          -insole_spot_dot(insole_spot_left(ahead), c), across}};
     insole_walker_state_learn(&walker->state, seen, 2);
@@ -349,3 +348,52 @@ insole_status_t insole_walker_ekf_answer(const insole_walker_ekf_t *walker,
     answer->var_scale = insole_walker_state_var_scale(&walker->state);
     return INSOLE_OK;
 }
+
+/* ---- for a tracker ---------------------------------------------------------------------- */
+
+static insole_status_t begin_state(void *state, const insole_step_filter_begin_t *begin)
+{
+    if (!begin) {
+        return INSOLE_ERR_NULL;
+    }
+    const insole_walker_start_t start = {
+        begin->t_us,      begin->spot, begin->cov_m2, begin->offset_rad, begin->var_offset_rad2,
+        begin->from_radio};
+    return insole_walker_ekf_start(state, &start);
+}
+
+static insole_status_t step_state(void *state, uint64_t t_us, const insole_pace_t *pace)
+{
+    (void)t_us;
+    return insole_walker_ekf_step(state, pace);
+}
+
+static insole_status_t fix_state(void *state, const insole_spot_fix_t *fix)
+{
+    return insole_walker_ekf_fix(state, fix);
+}
+
+static insole_status_t compass_state(void *state, insole_real_t offset_rad, insole_real_t sigma_rad)
+{
+    return insole_walker_ekf_compass(state, offset_rad, sigma_rad);
+}
+
+static insole_status_t answer_state(const void *state, insole_step_filter_answer_t *answer)
+{
+    insole_walker_answer_t known;
+    if (!answer) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_status_t status = insole_walker_ekf_answer(state, &known);
+    if (status == INSOLE_OK) {
+        *answer = (insole_step_filter_answer_t){known.spot, known.cov_m2, known.offset_rad,
+                                                known.var_offset_rad2, known.scale};
+    }
+    return status;
+}
+
+const insole_step_filter_calls_t insole_walker_ekf_calls = {.start = begin_state,
+                                                            .step = step_state,
+                                                            .fix = fix_state,
+                                                            .compass = compass_state,
+                                                            .answer = answer_state};

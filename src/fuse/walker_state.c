@@ -10,6 +10,9 @@
 /* Variance of the offset at which the two last states become c, and offset and scale again. */
 static const insole_real_t WIDE_RAD2 = INSOLE_R(0.25), NARROW_RAD2 = INSOLE_R(0.1225);
 
+/* Whoever rounds pi^2 / 3 otherwise means the same. */
+static const insole_real_t UNKNOWN_RAD2 = INSOLE_R(0.999) * INSOLE_HEADING_MOST_R2;
+
 /* Of the square of a mean direction, when nothing is left of it. */
 static const insole_real_t LEAST_KEPT = INSOLE_R(1.0e-6);
 
@@ -27,8 +30,7 @@ static insole_spot_t c_of(const insole_walker_state_t *state)
 
 insole_real_t insole_walker_kept(insole_real_t var_rad2)
 {
-    return var_rad2 < INSOLE_HEADING_MOST_R2 ? insole_max(insole_exp(-var_rad2), LEAST_KEPT)
-                                             : LEAST_KEPT;
+    return var_rad2 < UNKNOWN_RAD2 ? insole_exp(-var_rad2) : LEAST_KEPT;
 }
 
 insole_spot_t insole_walker_scatter(insole_real_t left)

@@ -9,6 +9,21 @@ void insole_weighing_begin(insole_weighing_t *weighing)
     weighing->heaviest = 0;
 }
 
+bool insole_weighing_listen(const insole_weighing_t *weighing, insole_rss_field_t *field,
+                            const insole_building_t *building, const insole_evidence_t *news,
+                            const insole_cloud_source_t *reach, insole_real_t wide_rad)
+{
+    insole_rss_around_t around = {.x_m = reach->x_m - weighing->news.since.x_m,
+                                  .y_m = reach->y_m - weighing->news.since.y_m,
+                                  .sigma_m =
+                                      insole_sqrt(insole_max(reach->var_x_m2, reach->var_y_m2)),
+                                  .heading_rad = weighing->stride.heading_rad + reach->offset_rad,
+                                  .has_heading = reach->sigma_offset_rad <= wide_rad};
+    return insole_rss_field_hear(field, building, news->readings, news->reading_count) ==
+               INSOLE_OK &&
+           insole_rss_field_place(field, &around) == INSOLE_OK;
+}
+
 static bool kills(insole_walls_t walls, const insole_floor_plan_t *plan, insole_spot_t from,
                   const insole_particle_t *to)
 {

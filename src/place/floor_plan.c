@@ -311,6 +311,27 @@ static insole_real_t distance2_m2(insole_real_t x_m, insole_real_t y_m, const in
     return insole_square(px - share * wx) + insole_square(py - share * wy);
 }
 
+/* The least squared distance of a point, relative to the origin, to one of the first `walls` walls,
+ * at most that of the limit. */
+static insole_real_t nearest_m2(const insole_floor_plan_t *plan, const way_t *at,
+                                insole_real_t limit_m, uint32_t walls)
+{
+    insole_real_t scale = plan->cells_per_m, nearest = limit_m * limit_m;
+    int32_t left = index_of(at->x_m - limit_m, scale, plan->columns);
+    int32_t right = index_of(at->x_m + limit_m, scale, plan->columns);
+    int32_t top = index_of(at->y_m + limit_m, scale, plan->rows);
+    for (int32_t row = index_of(at->y_m - limit_m, scale, plan->rows); row <= top; row++) {
+        const insole_floor_plan_cell_t *cells = first_cell(plan, row);
+        for (uint32_t i = cells[left].begin; i < cells[right + 1].begin; i++) {
+            const insole_wall_t *wall = &plan->walls[plan->entries[i]];
+            if (plan->entries[i] < walls) {
+                nearest = insole_min(nearest, distance2_m2(at->x_m, at->y_m, wall));
+            }
+        }
+    }
+    return nearest;
+}
+
 insole_status_t insole_floor_plan_clearance(const insole_floor_plan_t *plan, insole_real_t x_m,
                                             insole_real_t y_m, insole_real_t limit_m,
                                             insole_real_t *distance_m)
@@ -321,18 +342,20 @@ insole_status_t insole_floor_plan_clearance(const insole_floor_plan_t *plan, ins
     if (!in_range(x_m, y_m, limit_m, ZERO) || !(limit_m > ZERO)) {
         return INSOLE_ERR_VALUE;
     }
-    way_t way = way_in(plan, x_m, y_m, x_m, y_m);
-    insole_real_t scale = plan->cells_per_m, nearest_m2 = limit_m * limit_m;
-    int32_t left = index_of(way.x_m - limit_m, scale, plan->columns);
-    int32_t right = index_of(way.x_m + limit_m, scale, plan->columns);
-    int32_t top = index_of(way.y_m + limit_m, scale, plan->rows);
-    for (int32_t row = index_of(way.y_m - limit_m, scale, plan->rows); row <= top; row++) {
-        const insole_floor_plan_cell_t *cells = first_cell(plan, row);
-        for (uint32_t i = cells[left].begin; i < cells[right + 1].begin; i++) {
-            nearest_m2 = insole_min(nearest_m2,
-                                    distance2_m2(way.x_m, way.y_m, &plan->walls[plan->entries[i]]));
-        }
-    }
-    *distance_m = insole_sqrt(nearest_m2);
+    way_t at = way_in(plan, x_m, y_m, x_m, y_m);
+    *distance_m = insole_sqrt(nearest_m2(plan, &at, limit_m, plan->wall_count));
     return INSOLE_OK;
+}
+
+bool insole_floor_plan_is_closed(const insole_floor_plan_t *plan, insole_real_t x_m,
+                                 insole_real_t y_m, insole_real_t depth_m)
+{
+    if (plan == NULL || insole_floor_plan_inside(plan, x_m, y_m)) {
+        return false;
+    }
+    if (!in_range(x_m, y_m, depth_m, ZERO)) {
+        return true;
+    }
+    way_t at = way_in(plan, x_m, y_m, x_m, y_m);
+    return !(nearest_m2(plan, &at, depth_m, plan->ring_walls) < depth_m * depth_m);
 }

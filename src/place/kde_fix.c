@@ -43,13 +43,14 @@ static void take_offset_off(insole_kde_fix_t *kde)
 {
     const insole_kde_fix_config_t *config = &kde->config;
     insole_heard_t *heard = &kde->search.heard;
-    kde->heard_sum = ZERO;
+    insole_real_t sum = ZERO;
     for (uint32_t i = 0; i < heard->count; i++) {
         heard->dbm[i] -= kde->offset_db;
-        kde->heard_sum += config->kernel == INSOLE_KDE_FIX_GAUSS
-                              ? insole_square(heard->dbm[i] - config->unheard_dbm)
-                              : kde->bent[insole_radio_level(heard->dbm[i])];
+        sum += kde->bent[insole_radio_level(heard->dbm[i])];
     }
+    kde->heard_sum = config->kernel == INSOLE_KDE_FIX_GAUSS
+                         ? insole_map_search_heard_db2(&kde->search, config->unheard_dbm)
+                         : sum;
 }
 
 insole_status_t insole_kde_fix_begin(insole_kde_fix_t *kde, const insole_radio_map_t *map,
@@ -86,22 +87,11 @@ static insole_real_t log_of_sorensen(const insole_kde_fix_t *kde, const insole_r
     return -distance / kde->config.width;
 }
 
-/* Squared differences in dB over all that the scan or the point has heard. */
 static insole_real_t log_of_gauss(const insole_kde_fix_t *kde, const insole_radio_map_t *map,
                                   uint32_t point)
 {
-    insole_real_t unheard_dbm = kde->config.unheard_dbm;
-    insole_real_t squares = kde->heard_sum; /* as if the point had heard nothing */
-    uint32_t at = 0, end = map->first[point + 1u];
-    for (uint32_t i = map->first[point]; i < end; i++) {
-        insole_real_t mean_dbm = insole_radio_map_mean_dbm(map, i);
-        if (insole_heard_seek(&kde->search.heard, &at, map->aps[i])) {
-            insole_real_t dbm = kde->search.heard.dbm[at];
-            squares += insole_square(dbm - mean_dbm) - insole_square(dbm - unheard_dbm);
-        } else {
-            squares += insole_square(mean_dbm - unheard_dbm);
-        }
-    }
+    insole_real_t squares = insole_map_search_distance_db2(&kde->search, map, point,
+                                                           kde->config.unheard_dbm, kde->heard_sum);
     return -HALF * squares /
            insole_square(kde->config.sigma_db); /* [PhoneEKF (24)] [PhoneUKF (34)] */
 }

@@ -52,6 +52,34 @@ bool insole_map_search_next(insole_map_search_t *search, const insole_radio_map_
     return false;
 }
 
+insole_real_t insole_map_search_heard_db2(const insole_map_search_t *search,
+                                          insole_real_t unheard_dbm)
+{
+    insole_real_t sum = INSOLE_R(0.0);
+    for (uint32_t i = 0; i < search->heard.count; i++) {
+        sum += insole_square(search->heard.dbm[i] - unheard_dbm);
+    }
+    return sum;
+}
+
+insole_real_t insole_map_search_distance_db2(const insole_map_search_t *search,
+                                             const insole_radio_map_t *map, uint32_t point,
+                                             insole_real_t unheard_dbm, insole_real_t heard_db2)
+{
+    insole_real_t squares = heard_db2; /* as if the point had heard nothing */
+    uint32_t at = 0, end = map->first[point + 1u];
+    for (uint32_t i = map->first[point]; i < end; i++) {
+        insole_real_t mean_dbm = insole_radio_map_mean_dbm(map, i);
+        if (insole_heard_seek(&search->heard, &at, map->aps[i])) {
+            insole_real_t dbm = search->heard.dbm[at];
+            squares += insole_square(dbm - mean_dbm) - insole_square(dbm - unheard_dbm);
+        } else {
+            squares += insole_square(mean_dbm - unheard_dbm);
+        }
+    }
+    return squares;
+}
+
 void insole_map_search_add(insole_map_search_t *search, const insole_radio_map_t *map,
                            uint32_t point, insole_real_t log_weight)
 {

@@ -27,7 +27,7 @@ const insole_foot_fusion_config_t insole_foot_fusion_defaults = {
 
 static insole_cloud_t cloud_in(const insole_fusion_memory_t *m)
 {
-    insole_cloud_t cloud = {m->particles, m->count, m->past, m->past ? m->past_strides : 0u};
+    insole_cloud_t cloud = {m->particles, m->count, m->past, m->past ? m->past_strides : 0u, 0};
     return cloud;
 }
 

@@ -97,7 +97,7 @@ static insole_real_t length_m, heading_rad, turn_rad;
 static insole_rss_t readings[APS];
 
 static insole_particle_t particles[PARTICLES];
-static const insole_cloud_t cloud = {particles, PARTICLES, NULL, 0};
+static const insole_cloud_t cloud = {particles, PARTICLES, NULL, 0, NULL};
 static insole_particle_filter_t filter;
 
 /* Over 16 m x 48 m. */

@@ -70,6 +70,88 @@ static void call_insole_heading(uint32_t call)
     bench_result[1] = heading.variance_rad2;
 }
 
+/* The walk's direction: level accelerations on an ellipse, steps of half a second. */
+
+static insole_walk_heading_t walk;
+static insole_footfall_t footfall;
+
+static void begin_walk_heading(void)
+{
+    insole_walk_heading_init(&walk, &insole_walk_heading_defaults);
+}
+
+static void push_walk(void)
+{
+    static const insole_sym3_t cov = {INSOLE_R(1.0e-3), INSOLE_R(0.0), INSOLE_R(0.0),
+                                      INSOLE_R(1.0e-3), INSOLE_R(0.0), INSOLE_R(1.0e-2)};
+    insole_walk_heading_push(&walk, insole_quat_identity(), &cov, imu.accel_mps2, imu.t_us);
+}
+
+static void call_insole_walk_heading_push(uint32_t call)
+{
+    (void)call;
+    push_walk();
+    bench_take_vec3(0u, walk.motion.slots[0].sum_mps2);
+}
+
+static void make_step(uint32_t call)
+{
+    for (uint32_t k = 0u; k < RATE_HZ / 2; k++) {
+        make_sample(call * (RATE_HZ / 2) + k);
+        push_walk();
+    }
+    footfall.begin_us = footfall.end_us > imu.t_us ? 0u : footfall.end_us;
+    footfall.end_us = imu.t_us;
+}
+
+static void call_insole_walk_heading_step(uint32_t call)
+{
+    insole_walked_t walked = {0};
+    (void)call;
+    insole_walk_heading_step(&walk, &footfall, &walked);
+    bench_take_vec3(0u, insole_vec3(walked.direction_rad, walked.variance_rad2, walked.evidence));
+/* A carrying position: a forest of 40 trees as deep as they get, and full. */
+enum { TREES = 40, TREE_NODES = 127 };
+static insole_carry_t carry;
+static insole_carry_features_t features;
+static insole_carry_votes_t votes;
+static insole_carry_node_t nodes[TREES * TREE_NODES];
+static uint16_t roots[TREES + 1];
+static const char *const positions[] = {"hand", "ear", "swing", "pocket"};
+static const insole_carry_forest_t forest = {nodes, roots, positions, TREES, 4u};
+/* Node i of a heap leads to nodes 2 i + 1 and 2 i + 2. */
+static void begin_carry(void)
+    for (uint32_t i = 0u; i < TREES * TREE_NODES; i++) {
+        uint32_t below = 2u * (i % TREE_NODES) + 1u;
+        bool is_last = below >= TREE_NODES;
+        nodes[i].feature = (uint8_t)(insole_rng_bits(&bench_rng) % INSOLE_CARRY_FEATURES);
+        nodes[i].threshold = bench_between(INSOLE_R(0.0), INSOLE_R(12.0));
+        nodes[i].at_most = is_last ? INSOLE_CARRY_LEAF(i % 4u) : (uint8_t)below;
+        nodes[i].above = is_last ? INSOLE_CARRY_LEAF((i + 1u) % 4u) : (uint8_t)(below + 1u);
+    for (uint32_t tree = 0u; tree <= TREES; tree++) {
+        roots[tree] = (uint16_t)(tree * TREE_NODES);
+    insole_carry_init(&carry, &insole_carry_defaults);
+static void call_insole_carry_push(uint32_t call)
+    insole_carry_push(&carry, imu.t_us, imu.accel_mps2, NULL);
+    bench_take_vec3(0u, carry.window.gravity);
+static void make_window(uint32_t call)
+    for (uint32_t i = 0u; i < 100u; i++) {
+        make_sample(100u * call + i);
+        insole_carry_push(&carry, imu.t_us, imu.accel_mps2, NULL);
+static void call_insole_carry_next(uint32_t call)
+    insole_carry_news_t news;
+    insole_carry_next(&carry, &forest, &news);
+    for (uint32_t k = 0u; k < 4u; k++) {
+        bench_result[k] = news.votes.share[k];
+static void make_features(uint32_t call)
+    make_window(call);
+    insole_carry_window_next(&carry.window, &features);
+static void call_insole_carry_forest_vote(uint32_t call)
+    insole_carry_forest_vote(&forest, &features, &votes);
+    for (uint32_t k = 0u; k < 4u; k++) {
+        bench_result[k] = votes.share[k];
+}
+
 /* A walk in the fusions: a pace each call, a fix each call. */
 
 static insole_pace_t pace;
@@ -77,6 +159,7 @@ static insole_spot_fix_t fix;
 static insole_step_fusion_t fusion;
 static insole_ml_shift_t ml;
 static insole_auto_start_t start;
+static insole_walker_ekf_t walker;
 
 static void make_news(uint32_t call)
 {
@@ -139,6 +222,81 @@ static void call_insole_ml_shift_fix(uint32_t call)
     bench_take_vec3(0u, insole_vec3(ml.spot.x_m, ml.spot.y_m, ml.P.xx));
 }
 
+/* The direction known to `sigma_rad` rad. */
+static void begin_walker(insole_real_t sigma_rad)
+{
+    insole_walker_start_t known = {.cov_m2 = insole_sym2_circle(INSOLE_R(4.0)),
+                                   .offset_rad = INSOLE_R(0.5),
+                                   .var_offset_rad2 = sigma_rad * sigma_rad,
+                                   .by_radio = true};
+    insole_walker_ekf_init(&walker, &insole_walker_ekf_defaults);
+    insole_walker_ekf_start(&walker, &known);
+}
+
+static void begin_walker_known(void)
+{
+    begin_walker(INSOLE_R(0.26));
+}
+
+static void begin_walker_wide(void)
+{
+    begin_walker(INSOLE_PI);
+}
+
+static void take_walker(void)
+{
+    insole_walker_answer_t answer;
+    insole_walker_ekf_answer(&walker, &answer);
+    bench_take_vec3(0u, insole_vec3(answer.spot.x_m, answer.spot.y_m, answer.offset_rad));
+    bench_take_vec3(3u, insole_vec3(answer.cov_m2.xx, answer.cov_m2.xy, answer.cov_m2.yy));
+    bench_take_vec3(6u, insole_vec3(answer.scale, answer.var_scale, answer.var_offset_rad2));
+}
+
+/* What happens between two counted calls, so that the direction stays as known as it was. */
+static void make_walker_step(uint32_t call)
+{
+    make_news(call);
+    insole_walker_ekf_fix(&walker, &fix);
+}
+
+static void make_walker_fix(uint32_t call)
+{
+    make_news(call);
+    insole_walker_ekf_step(&walker, &pace);
+}
+
+static void make_walker_wide(uint32_t call)
+{
+    begin_walker_wide();
+    make_news(call);
+}
+
+static void call_insole_walker_ekf_step(uint32_t call)
+{
+    (void)call;
+    insole_walker_ekf_step(&walker, &pace);
+    take_walker();
+}
+
+static void call_insole_walker_ekf_step_wide(uint32_t call)
+{
+    call_insole_walker_ekf_step(call);
+}
+
+static void call_insole_walker_ekf_fix(uint32_t call)
+{
+    (void)call;
+    insole_walker_ekf_fix(&walker, &fix);
+    take_walker();
+}
+
+static void call_insole_walker_ekf_compass(uint32_t call)
+{
+    (void)call;
+    insole_walker_ekf_compass(&walker, INSOLE_R(0.5), INSOLE_R(0.8));
+    take_walker();
+}
+
 /* Begun anew, so that each call is the last of five fixes. */
 static void make_start(int32_t method)
 {
@@ -192,12 +350,25 @@ static const bench_case_t cases[] = {
     {"insole_attitude_push_ekf", WALK, begin_phone, make_sample, call_insole_attitude_push_ekf},
     {"insole_attitude_push_ukf", WALK, begin_phone, make_sample, call_insole_attitude_push_ukf},
     {"insole_heading", WALK, begin_phone, make_attitude, call_insole_heading},
+    {"insole_walk_heading_push", WALK, begin_walk_heading, make_sample,
+     call_insole_walk_heading_push},
+    {"insole_walk_heading_step", 40u, begin_walk_heading, make_step, call_insole_walk_heading_step},
+    {"insole_carry_push", WALK, begin_carry, make_sample, call_insole_carry_push},
+    {"insole_carry_next", 20u, begin_carry, make_window, call_insole_carry_next},
+    {"insole_carry_forest_vote", 20u, begin_carry, make_features, call_insole_carry_forest_vote},
     {"insole_step_fusion_step_ekf", 200u, begin_fusion, make_news,
      call_insole_step_fusion_step_ekf},
     {"insole_step_fusion_step_ukf", 200u, begin_fusion, make_news,
      call_insole_step_fusion_step_ukf},
     {"insole_step_fusion_fix", 200u, begin_fusion, make_news, call_insole_step_fusion_fix},
     {"insole_ml_shift_fix", 200u, begin_ml_shift, make_news, call_insole_ml_shift_fix},
+    {"insole_walker_ekf_step", 200u, begin_walker_known, make_walker_step,
+     call_insole_walker_ekf_step},
+    {"insole_walker_ekf_step_wide", 50u, NULL, make_walker_wide, call_insole_walker_ekf_step_wide},
+    {"insole_walker_ekf_fix", 200u, begin_walker_known, make_walker_fix,
+     call_insole_walker_ekf_fix},
+    {"insole_walker_ekf_compass", 200u, begin_walker_known, make_walker_fix,
+     call_insole_walker_ekf_compass},
     {"insole_auto_start_moved", 50u, NULL, make_moved, call_insole_auto_start_moved},
     {"insole_auto_start_circles", 50u, NULL, make_circles, call_insole_auto_start_circles},
 };

@@ -422,8 +422,8 @@ lacks err ' in 10 strides'
 
 # ---- calibrate -----------------------------------------------------------------------------
 
-refuses 2 'insole calibrate nothing: expected imu, stride, gyro-scale or pathloss' calibrate
-refuses 2 'insole calibrate magnet: expected imu, stride, gyro-scale or pathloss' calibrate magnet walk.csv
+refuses 2 'insole calibrate nothing: expected imu, stride, gyro-scale, pathloss, steplength or compass' calibrate
+refuses 2 'insole calibrate magnet: expected imu, stride, gyro-scale, pathloss, steplength or compass' calibrate magnet walk.csv
 refuses 2 'insole calibrate imu: no log: expected one or more' calibrate imu
 refuses 2 'insole calibrate gyro-scale: expected one LOG and --turns N' calibrate gyro-scale walk.csv
 refuses 2 'insole calibrate pathloss: no access points: expected --aps FILE, and --plan FILE where there are walls' \

@@ -153,6 +153,8 @@ START_TEST(a_folder_stands_for_its_logs)
     scratch_file("walk/plan.csv", "outline,0,0,1,0,1,1\n");
     scratch_file("walk/aps.csv", "id,x,y\na,1,2\n");
     scratch_file("walk/radiomap.csv", "x,y,id,mean_dbm,std_dbm,count\n");
+    scratch_file("walk/pose.csv", "t,pose\n0,hand\n");
+    scratch_file("walk/steps.csv", "t,foot,kind\n3.5,left,walk\n");
     scratch_file("walk/track.csv", "t,x,y,z,heading,state\n4,1,2,0,0,track\n");
     scratch_file("walk/notes.txt", "nothing\n");
     scratch_file("walk/.hidden.csv", "nothing\n");

@@ -93,9 +93,10 @@ END_TEST
 /* Nobody could be anywhere in it; it can still be drawn and lose radio waves. */
 START_TEST(a_plan_without_an_outline_is_a_sketch)
 {
+    static const char other_floor[] = "floor,1,0,a\nwall,5,1,0,1,4\nfloor,2,3,b\n"
+                                      "outline,0,0,9,0,9,9\n";
     static const char *const plans[] = {"wall,5,10,0,10,4\n", "hole,4,4,6,4,6,6,4,6\n",
-                                        "floor,1,0,a\nwall,5,1,0,1,4\nfloor,2,3,b\n"
-                                        "outline,0,0,9,0,9,9\n"};
+                                        other_floor};
     for (size_t i = 0u; i < sizeof plans / sizeof plans[0]; i++) {
         const char *path = scratch_file("sketch.csv", plans[i]);
         ck_assert(!site_open(&site, path, NULL, NULL, &insole_propagation_defaults, &failure));

@@ -13,7 +13,6 @@ interpolated at their times, a point without one counts 30 m. Whatever is random
 access points, where a wrong start lies) follows from walk and seed.
 """
 import argparse
-import bisect
 import concurrent.futures
 import csv
 import json
@@ -24,9 +23,9 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 import program as support  # noqa: E402
+from tracks import errors_of, percentile, put_in, read_lines, read_track, show_progress, Track  # noqa: E402,E501
 
 BEGIN, END = "<!-- buildings:begin -->", "<!-- buildings:end -->"
-MISSING_M = 30.0
 ASTRAY_M = 5.0
 TURN_RAD, SHIFT_M = math.radians(37.0), (500.0, -500.0)
 HOLD_S = 0.5
@@ -34,10 +33,6 @@ LAST_SCAN_S = 1.0
 
 
 # ---- what is given -----------------------------------------------------------------------
-
-
-def read_lines(path):
-    return path.read_text(encoding="ascii").splitlines()
 
 
 class Walk:
@@ -182,40 +177,6 @@ NOT_RANDOM = {"ins"}
 # ---- one run -----------------------------------------------------------------------------
 
 
-def read_track(path):
-    rows = []
-    for line in read_lines(path)[1:]:
-        cells = line.split(",")
-        rows.append((float(cells[0]), float(cells[1]), float(cells[2]), cells[-1]))
-    return rows
-
-
-class Track:
-    """Rows by time."""
-
-    def __init__(self, rows):
-        self.rows, self.times = rows, [row[0] for row in rows]
-
-    def place(self, t):
-        """Interpolated; None where the track has nothing to say."""
-        after = bisect.bisect_right(self.times, t)
-        if after in (0, len(self.rows)):
-            end = self.rows[after and after - 1]
-            return end[1:3] if abs(t - end[0]) <= 0.5 else None
-        a, b = self.rows[after - 1:after + 1]
-        if t == a[0]:
-            return a[1:3]
-        if b[0] - a[0] > 2.0:
-            return None
-        leaps = math.dist(a[1:3], b[1:3]) > 20.0 * (b[0] - a[0])
-        share = 1.0 if leaps else (t - a[0]) / (b[0] - a[0])
-        return a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])
-
-    def state(self, t):
-        k = min(bisect.bisect_left(self.times, t), len(self.rows) - 1)
-        return self.rows[k][3]
-
-
 def walls_of(plan):
     """Segments of all rings and inner walls."""
     walls = []
@@ -253,11 +214,6 @@ def count_crossings(track, events, walls):
             count += 1
             crossed += crosses(walls, p, q)
     return crossed, count
-
-
-def errors_of(track, truth):
-    places = [(track.place(t), (x, y)) for t, x, y in truth]
-    return [math.dist(place, true) if place else MISSING_M for place, true in places]
 
 
 def arguments_of(walk, folder, seed):
@@ -311,14 +267,6 @@ def check_score(program, folder, truth, errors):
 # ---- all runs ----------------------------------------------------------------------------
 
 
-def percentile(values, share):
-    ordered = sorted(values)
-    place = share * (len(ordered) - 1)
-    low = int(place)
-    high = min(low + 1, len(ordered) - 1)
-    return ordered[low] + (place - low) * (ordered[high] - ordered[low])
-
-
 class Result:
     """Everything pooled over the runs of one configuration."""
 
@@ -353,12 +301,6 @@ def run_all(program, data, configurations, seeds, jobs):
             runs[configuration].append(future.result())
             show_progress(done, len(todo), configuration)
     return {configuration: Result(of) for configuration, of in runs.items()}
-
-
-def show_progress(done, count, what):
-    if sys.stderr.isatty():
-        print(f"\r{done} of {count} replays, {what}\033[K", end="" if done < count else "\n",
-              file=sys.stderr, flush=True)
 
 
 def table(results):
@@ -412,11 +354,6 @@ def check_prefix(program, data, checks):
 
 
 # ---- command -----------------------------------------------------------------------------
-
-
-def put_in(text, content):
-    head, rest = text.split(BEGIN, 1)
-    return f"{head}{BEGIN}\n{content}\n{END}{rest.split(END, 1)[1]}"
 
 
 def write_expectations(results, file):
@@ -476,7 +413,7 @@ def main():
     result = table(results)
     if given.update:
         text = given.update.read_text(encoding="utf-8")
-        given.update.write_text(put_in(text, result), encoding="utf-8")
+        given.update.write_text(put_in(text, BEGIN, END, result), encoding="utf-8")
     print(result)
     return 0
 

@@ -1,14 +1,15 @@
 /** @file mall_fixes.c  Fixes from fingerprints on recorded walks: how far off, and do they know it.
  *
- *  usage: mall_fixes [--survey] [--late SECONDS] [--offset DB] [--spacing M] [--keep N]
- *                    [--limit M] [KEY=VALUE]
+ *  usage: mall_fixes [--survey] [--folds N] [--late SECONDS] [--ahead M] [--offset DB]
+ *                    [--spacing M] [--keep N] [--limit M] [KEY=VALUE]
  *
- *  Builds the radio map from the survey walks and prints each method's errors on the test walks: of
- *  each scan, against where the walker was when it was heard; at each waypoint, of the last fix.
- *  `--survey`: settings are chosen here, each sixth of the survey walks against the others, and no
- *  test walk is looked at. `--late`: a scan lies so much after it was heard. `--offset`: the test
- *  phone reads so much too strong. `--limit`: fails when the mean error at the waypoints of the
- *  default method is larger. KEY is one of kde_fix. or ml_fix.
+ *  Builds the radio map from the survey walks and prints each method's errors on the test walks:
+ *  of each scan, against where the walker was when it was heard; at each waypoint, of the last
+ *  fix. `--survey`: settings are chosen here, each sixth (or N-th) of the survey walks against
+ *  the others, and no test walk is looked at. `--late`, `--ahead`: as of `insole radiomap`, for
+ *  map and fixes (defaults are those of the command). `--offset`: the test phone reads so much
+ *  too strong. `--limit`: fails when the mean error at the waypoints of the default method is
+ *  larger. KEY is one of kde_fix. or ml_fix.
  *
  *  SPDX-License-Identifier: MIT
  */

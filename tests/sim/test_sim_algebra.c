@@ -89,6 +89,41 @@ START_TEST(derivatives_are_exact_to_the_order_they_promise)
 }
 END_TEST
 
+/* A turn by a vector is what three simple turns are by hand; and it is found again. */
+START_TEST(turns_are_about_their_vector)
+{
+    sim_mat3_t m = sim_mat3_from_turn(sim_vec3(0.0, 0.0, 0.5 * SIM_PI));
+    sim_vec3_t y = sim_mat3_mul_vec(m, sim_vec3(1.0, 0.0, 0.0));
+    ASSERT_NEAR(y.x, 0.0, exact, "1");
+    ASSERT_NEAR(y.y, 1.0, exact, "1");
+    m = sim_mat3_from_turn(sim_vec3(0.3, 0.0, 0.0));
+    sim_mat3_t roll = sim_mat3_from_euler(0.3, 0.0, 0.0);
+    ASSERT_NEAR(m.r1.z, roll.r1.z, exact, "1");
+    ASSERT_NEAR(m.r2.z, roll.r2.z, exact, "1");
+    sim_vec3_t axis = sim_vec3(0.6, -0.48, 0.64);
+    for (double angle = 0.0; angle < 3.1; angle += angle < 1e-3 ? 1e-5 : 0.1) {
+        sim_vec3_t turn = sim_vec3_scale(axis, angle);
+        m = sim_mat3_from_turn(turn);
+        sim_vec3_t found = sim_mat3_turn(m), kept = sim_mat3_mul_vec(m, axis);
+        ASSERT_NEAR(sim_vec3_norm(sim_vec3_sub(found, turn)), 0.0, 1e-9, "rad");
+        ASSERT_NEAR(sim_vec3_norm(sim_vec3_sub(kept, axis)), 0.0, 1e-12, "1");
+    }
+}
+END_TEST
+
+static const sim_vec3_t halves[] = {{1.0, 0.0, 0.0},  {0.0, 1.0, 0.0},   {0.0, 0.0, 1.0},
+                                    {0.6, -0.8, 0.0}, {0.0, 0.28, 0.96}, {-0.48, 0.6, 0.64}};
+
+START_TEST(half_turns_are_found_too)
+{
+    sim_mat3_t m = sim_mat3_from_turn(sim_vec3_scale(halves[_i], SIM_PI));
+    sim_mat3_t again = sim_mat3_from_turn(sim_mat3_turn(m)); /* the axis may be the other end */
+    ASSERT_NEAR(sim_vec3_norm(sim_vec3_sub(m.r0, again.r0)), 0.0, 1e-9, "1");
+    ASSERT_NEAR(sim_vec3_norm(sim_vec3_sub(m.r1, again.r1)), 0.0, 1e-9, "1");
+    ASSERT_NEAR(sim_vec3_norm(sim_vec3_sub(m.r2, again.r2)), 0.0, 1e-9, "1");
+}
+END_TEST
+
 static const double wraps[][2] = {{0.0, 0.0},
                                   {SIM_PI, SIM_PI},
                                   {-SIM_PI, SIM_PI},
@@ -111,6 +146,9 @@ Suite *insole_suite(void)
     suite_add(suite, "euler directions", euler_angles_turn_the_way_they_say);
     suite_add(suite, "euler order", euler_angles_are_applied_roll_first);
     suite_add(suite, "rotation", a_rotation_keeps_lengths_and_is_undone_by_its_transpose);
+    suite_add(suite, "turns", turns_are_about_their_vector);
+    suite_add_loop(suite, "half turns", half_turns_are_found_too,
+                   (int)(sizeof halves / sizeof halves[0]));
     suite_add(suite, "derivatives", derivatives_are_exact_to_the_order_they_promise);
     suite_add_loop(suite, "wrap", angles_wrap, (int)(sizeof wraps / sizeof wraps[0]));
     return suite;

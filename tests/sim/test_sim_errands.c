@@ -208,7 +208,7 @@ static const struct {
 } refusals[] = {
     {"start,1,1,0\nerrands,3\n", "", 2, "errands without a plan, expected plan,FILE"},
     {"start,1,1,0\nsurvey,3\n", "", 2, "a survey without a plan, expected plan,FILE"},
-    {"start,1,1,0\n\nsurvey,50\n", ROOMS, 3, "no point of the grid is inside the plan"},
+    {"start,1,1,0\n\nsurvey,50\n", ROOMS, 3, "no reference point is inside the plan"},
     {"start,1,1,0\nwalk,19,1,1\n", ROOMS, 2, "the way to 19,1 crosses a wall of the plan"},
     {"start,1,1,0\nwalk,9,10,1\nwalk,10,8,1\n", ROOMS, 3, "the way to 10,8 crosses a wall"},
     {"start,14.5,5.5,0\n", ROOMS, 1, "14.5,5.5 is not inside the plan"},

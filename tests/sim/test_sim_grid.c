@@ -58,11 +58,49 @@ START_TEST(without_walls_there_are_no_points)
 }
 END_TEST
 
+START_TEST(lines_come_before_the_grid)
+{
+    const char *room = "outline,0,0,30,0,30,20,0,20\n";
+    sim_scenario_t scenario =
+        scenario_in("points,2,4,14,4\npoints,5,2,5,12.5\nstart,2,2,0\n", room, "");
+    sim_scenario_t grid = scenario_in("start,2,2,0\n", room, "");
+    sim_list_t points;
+    ck_assert(sim_reference_points(&scenario, 3.0, &points));
+    /* 2, 5, 8, 11, 14; then 10.5 m in four pieces, since 2.6 m is nearer to 3 m than 3.5 m is */
+    ck_assert_uint_eq(points.count, 10u);
+    for (size_t i = 0; i < 10; i++) {
+        const sim_point_t *p = sim_list_at(&points, i);
+        ASSERT_NEAR(p->x_m, i < 5 ? 2.0 + 3.0 * (double)i : 5.0, 1e-12, "m");
+        ASSERT_NEAR(p->y_m, i < 5 ? 4.0 : 2.0 + 2.625 * (double)(i - 5), 1e-12, "m");
+    }
+    sim_list_free(&points);
+    ck_assert(sim_reference_points(&grid, 3.0, &points));
+    ck_assert_uint_eq(points.count, 70u);
+    sim_list_free(&points);
+    sim_scenario_free(&scenario);
+    sim_scenario_free(&grid);
+}
+END_TEST
+
+START_TEST(points_of_lines_keep_clear_of_walls_too)
+{
+    sim_scenario_t scenario = scenario_in("points,1,5,19,5\nstart,2,2,0\n",
+                                          "outline,0,0,15,0,15,10,0,10\nwall,3,7.2,0,7.2,10\n", "");
+    sim_list_t points;
+    ck_assert(sim_reference_points(&scenario, 3.0, &points));
+    ck_assert_uint_eq(points.count, 4u); /* of 1, 4, 7, 10, 13, 16, 19 */
+    sim_list_free(&points);
+    sim_scenario_free(&scenario);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("sim/grid");
     suite_add(suite, "places", points_lie_row_by_row_from_half_a_spacing);
     suite_add(suite, "places", what_is_outside_or_near_a_wall_is_left_out);
     suite_add(suite, "places", without_walls_there_are_no_points);
+    suite_add(suite, "lines", lines_come_before_the_grid);
+    suite_add(suite, "lines", points_of_lines_keep_clear_of_walls_too);
     return suite;
 }

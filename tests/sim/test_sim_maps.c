@@ -3,7 +3,9 @@
  */
 #include "buildings.h"
 #include "near.h"
+#include "sim/grid.h"
 #include "sim/scans.h"
+#include "sim/trunk.h"
 #include "sim/walk.h"
 #include "suite.h"
 
@@ -21,6 +23,16 @@ static const struct {
 
 static const char *const errands[] = {"office/errands", "student_centre/errands",
                                       "exhibition_hall/errands"};
+
+/* With a phone. */
+static const char *const phones[] = {"office/handheld",
+                                     "office/carried",
+                                     "student_centre/handheld",
+                                     "student_centre/carried",
+                                     "exhibition_hall/handheld",
+                                     "exhibition_hall/wifi_shift_1.scenario",
+                                     "exhibition_hall/wifi_shift_2.scenario",
+                                     "exhibition_hall/wifi_shift_3.scenario"};
 
 static sim_walk_t *walk_in(const sim_scenario_t *scenario, uint64_t seed)
 {
@@ -98,6 +110,43 @@ START_TEST(fifty_walks_of_errands_meet_no_wall)
 }
 END_TEST
 
+START_TEST(walks_with_a_phone_meet_no_wall)
+{
+    sim_scenario_t scenario = scenario_of_map(phones[_i]);
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        sim_walk_t *walk = walk_in(&scenario, seed);
+        ck_assert_ptr_nonnull(sim_walk_phone(walk));
+        int met = 0;
+        sim_place_t last = sim_trunk_at(sim_walk_steps(walk), 0.0);
+        for (double t = 0.1; t < sim_walk_duration(walk); t += 0.1) {
+            sim_place_t now = sim_trunk_at(sim_walk_steps(walk), t);
+            sim_point_t p = {last.x_m, last.y_m}, q = {now.x_m, now.y_m};
+            met += hypot(q.x_m - p.x_m, q.y_m - p.y_m) > 1e-3 ? walls_met(&scenario.plan, p, q) : 0;
+            last = now;
+        }
+        ck_assert_msg(met == 0, "%s, seed %u: %d walls", phones[_i], (unsigned)seed, met);
+        ASSERT_AT_LEAST(sim_walk_distance(walk), 90.0, "m");
+        sim_walk_close(walk);
+    }
+    sim_scenario_free(&scenario);
+}
+END_TEST
+
+START_TEST(the_exhibition_has_183_reference_points)
+{
+    sim_scenario_t scenario = scenario_of_map("exhibition_hall/wifi_shift_survey");
+    sim_list_t points;
+    ck_assert(sim_reference_points(&scenario, 3.0, &points));
+    ck_assert_uint_eq(points.count, 183u);
+    for (size_t i = 1; i < points.count; i++) {
+        const sim_point_t *a = sim_list_at(&points, i - 1), *b = sim_list_at(&points, i);
+        ck_assert(a->y_m != b->y_m || fabs(b->x_m - a->x_m - 3.0) < 1e-9);
+    }
+    sim_list_free(&points);
+    sim_scenario_free(&scenario);
+}
+END_TEST
+
 START_TEST(size_access_points_and_length_are_as_told)
 {
     char name[100];
@@ -166,6 +215,9 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "walls", the_walk_of_each_map_meets_no_wall, count);
     suite_add(suite, "through", a_walk_through_walls_would_be_seen);
     suite_add_loop(suite, "errands", fifty_walks_of_errands_meet_no_wall, 3);
+    suite_add_loop(suite, "phones", walks_with_a_phone_meet_no_wall,
+                   (int)(sizeof phones / sizeof phones[0]));
+    suite_add(suite, "points", the_exhibition_has_183_reference_points);
     suite_add_loop(suite, "figures", size_access_points_and_length_are_as_told, count);
     suite_add_loop(suite, "access points", access_points_are_inside_and_tell_everything, count);
     suite_add_loop(suite, "scans", scans_hear_enough_to_find_the_way, count);

@@ -351,6 +351,53 @@ START_TEST(near_is_the_mean_round_an_access_point)
 }
 END_TEST
 
+/* Half of the time nobody is in the way; else the loss has the second moment of a normal. */
+START_TEST(people_in_between_take_some)
+{
+    char text[1200];
+    setup_t s;
+    snprintf(text, sizeof text, "%s%sradio.crowd_db = 6\nradio.crowd_s = 1\n", START, BARE);
+    open_radio(&s, text, "", AP, 3);
+    double free_dbm = mean_at(&s, 9.0, 0.0, 0.0), none = 0.0, squares = 0.0, together = 0.0;
+    double last = 0.0, mean = 0.0;
+    int n = 40000;
+    for (int i = 0; i < n; i++) {
+        double dbm;
+        sim_radio_wait(&s.radio, 0.25);
+        ck_assert(sim_radio_hear(&s.radio, 0, sim_vec3(9.0, 0.0, 0.0), 0.0, &dbm));
+        double loss = free_dbm - dbm;
+        none += fabs(loss) < 0.1 ? 1.0 / n : 0.0; /* fading is 60 dB down */
+        squares += loss * loss / n;
+        mean += loss / n;
+        together += loss * last / n;
+        last = loss;
+    }
+    ASSERT_NEAR(none, 0.5, 0.04, "1");
+    ASSERT_NEAR(mean, 6.0 / sqrt(2.0 * SIM_PI), 0.2, "dB");
+    ASSERT_NEAR(sqrt(squares), 6.0 / sqrt(2.0), 0.25, "dB");
+    double kept = (together - mean * mean) / (squares - mean * mean);
+    ASSERT_NEAR(kept, exp(-0.25), 0.08, "1"); /* the cut at 0 takes little of the correlation */
+    close_radio(&s);
+}
+END_TEST
+
+START_TEST(without_people_waiting_changes_nothing)
+{
+    setup_t a, b;
+    open_radio(&a, START, "", AP, 3);
+    open_radio(&b, START "radio.crowd_s = 50\n", "", AP, 3);
+    for (int i = 0; i < 200; i++) {
+        double x = 0.0, y = 0.0;
+        sim_radio_wait(&b.radio, 0.1 * i);
+        bool heard = sim_radio_hear(&a.radio, 0, sim_vec3(5.0, 0.0, 0.0), 0.0, &x);
+        ck_assert_int_eq(heard, sim_radio_hear(&b.radio, 0, sim_vec3(5.0, 0.0, 0.0), 0.0, &y));
+        ck_assert(x == y);
+    }
+    close_radio(&a);
+    close_radio(&b);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("sim/radio");
@@ -369,5 +416,7 @@ Suite *insole_suite(void)
     suite_add(suite, "floor", weak_signals_are_heard_by_chance);
     suite_add(suite, "seeds", equal_seeds_give_equal_readings);
     suite_add(suite, "near", near_is_the_mean_round_an_access_point);
+    suite_add(suite, "people", people_in_between_take_some);
+    suite_add(suite, "nobody", without_people_waiting_changes_nothing);
     return suite;
 }

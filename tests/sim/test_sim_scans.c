@@ -188,6 +188,55 @@ START_TEST(a_radio_on_the_body_goes_with_it)
 }
 END_TEST
 
+/* The mean of n readings scatters by 1 / sqrt(n) of one. */
+START_TEST(readings_are_averaged_over_the_period)
+{
+    static const double counts[] = {1.0, 4.0, 16.0};
+    double sigma[3];
+    for (int k = 0; k < 3; k++) {
+        char text[500];
+        setup_t s;
+        double sum = 0.0, squares = 0.0;
+        snprintf(text, sizeof text,
+                 STAND EVEN "radio.model = matched\nradio.noise_db = 4\nradio.readings = %g\n",
+                 counts[k]);
+        scan(&s, text, "id,x,y,z\na,3,0,1\n", 6);
+        double n = (double)s.heard.count;
+        ASSERT_NEAR(n, 600.0, 1.0, "scans");
+        for (size_t i = 0; i < s.heard.count; i++) {
+            sum += heard_at(&s, i)->dbm / n;
+            squares += pow(heard_at(&s, i)->dbm, 2.0) / n;
+        }
+        sigma[k] = sqrt(squares - sum * sum);
+        finish(&s);
+    }
+    ASSERT_NEAR(sigma[0], 4.0, 0.4, "dB");
+    ASSERT_NEAR(sigma[1], 2.0, 0.2, "dB");
+    ASSERT_NEAR(sigma[2], 1.0, 0.1, "dB");
+}
+END_TEST
+
+/* Ten readings in the second before the scan tell of the place half a second before it. */
+START_TEST(averaged_readings_lag_behind_a_walker)
+{
+    setup_t one, ten;
+    const char *walk = "start,0,0,0\nwalk,30,0,1.3\nradio.place = body\nradio.model = matched\n"
+                       "radio.noise_db = 0\nradio.height_m = 1\n";
+    char text[500];
+    const char *ap = "id,x,y,z,exponent\na,-50,0,1,2\n";
+    scan(&one, walk, ap, 1);
+    snprintf(text, sizeof text, "%sradio.readings = 10\n", walk);
+    scan(&ten, text, ap, 1);
+    for (size_t i = 8; i < 20; i++) {
+        double ahead = pow(10.0, (-40.0 - heard_at(&one, i)->dbm) / 20.0);
+        double behind = pow(10.0, (-40.0 - heard_at(&ten, i)->dbm) / 20.0);
+        ASSERT_NEAR(ahead - behind, 0.45 * 1.3, 0.08, "m");
+    }
+    finish(&one);
+    finish(&ten);
+}
+END_TEST
+
 START_TEST(equal_seeds_hear_the_same)
 {
     setup_t a, b, c;
@@ -219,5 +268,7 @@ Suite *insole_suite(void)
     suite_add(suite, "late", a_late_scan_tells_where_it_was_heard);
     suite_add(suite, "body", a_radio_on_the_body_goes_with_it);
     suite_add(suite, "seeds", equal_seeds_hear_the_same);
+    suite_add(suite, "readings", readings_are_averaged_over_the_period);
+    suite_add(suite, "lag", averaged_readings_lag_behind_a_walker);
     return suite;
 }

@@ -29,6 +29,30 @@ START_TEST(orders_are_read_as_written)
 }
 END_TEST
 
+START_TEST(changes_of_the_pose_are_read_as_written)
+{
+    sim_scenario_t s = scenario_of("start,0,0,0\npose, 5, ear\n\npose,9.5,swing # at the side\n");
+    ck_assert_uint_eq(s.changes.count, 2u);
+    const sim_pose_change_t *first = sim_list_at(&s.changes, 0),
+                            *second = sim_list_at(&s.changes, 1);
+    ck_assert(first->t_s == 5.0 && first->pose == SIM_POSE_EAR && first->line == 2);
+    ck_assert(second->t_s == 9.5 && second->pose == SIM_POSE_SWING && second->line == 4);
+    ck_assert_int_eq(s.settings.phone.pose, SIM_POSE_HAND);
+    sim_scenario_free(&s);
+}
+END_TEST
+
+START_TEST(lines_of_points_are_read_as_written)
+{
+    sim_scenario_t s = scenario_of("points, 1,2, 3,-4\nstart,0,0,0\n");
+    const sim_line_t *line = sim_list_at(&s.lines, 0);
+    ck_assert_uint_eq(s.lines.count, 1u);
+    ck_assert(line->from.x_m == 1.0 && line->from.y_m == 2.0);
+    ck_assert(line->to.x_m == 3.0 && line->to.y_m == -4.0);
+    sim_scenario_free(&s);
+}
+END_TEST
+
 START_TEST(comments_blanks_and_line_ends_do_not_matter)
 {
     sim_scenario_t s = scenario_of("# a walk\r\n\r\n   start , 0 ,\t0, 0   # here\r\n"
@@ -105,6 +129,14 @@ static const struct {
     {"errands,3\n", 1, "'errands' is out of place"},
     {"goal,1\n", 1, "too few fields, expected goal,x,y[,name]"},
     {"goal,1,a\n", 1, "y is 'a', expected a number"},
+    {"points,1,2,3\n", 1, "too few fields, expected points,x,y,x,y"},
+    {"points,1,2,3,4,5\n", 1, "too many fields, expected points,x,y,x,y"},
+    {"points,1,2,a,4\n", 1, "x is 'a', expected a number"},
+    {"pose,5\n", 1, "expected pose,seconds,hand|ear|swing|pocket"},
+    {"pose,5,ear,2\n", 1, "expected pose,seconds,hand|ear|swing|pocket"},
+    {"pose,soon,ear\n", 1, "seconds is 'soon', expected a number"},
+    {"pose,-1,ear\n", 1, "seconds is '-1', expected a number"},
+    {"pose,5,nose\n", 1, "phone.pose is 'nose', expected one of hand|ear|swing|pocket"},
     {"plan\n", 1, "expected plan,FILE with the name of a file beside the scenario"},
     {"plan,\n", 1, "expected plan,FILE"},
     {"plan,../a.csv\n", 1, "expected plan,FILE"},
@@ -183,6 +215,8 @@ Suite *insole_suite(void)
     Suite *suite = suite_create("sim/scenario");
     suite_add(suite, "orders", orders_are_read_as_written);
     suite_add(suite, "building", building_goals_and_errands_are_read_as_written);
+    suite_add(suite, "poses", changes_of_the_pose_are_read_as_written);
+    suite_add(suite, "lines", lines_of_points_are_read_as_written);
     suite_add(suite, "white space", comments_blanks_and_line_ends_do_not_matter);
     suite_add(suite, "defaults", without_settings_all_are_defaults);
     suite_add_loop(suite, "refusals", malformed_lines_are_refused_by_number,

@@ -100,6 +100,14 @@ START_TEST(choices_go_by_name)
     ck_assert_int_eq(settings.radio.place, SIM_CARRIED_BY_BODY);
     ck_assert(sim_settings_set(&settings, "radio.near", "told", &error));
     ck_assert_int_eq(settings.radio.near, SIM_NEAR_TOLD);
+    ck_assert(sim_settings_set(&settings, "log.sensor", "phone", &error));
+    ck_assert_int_eq(settings.log.sensor, SIM_SENSOR_PHONE);
+    ck_assert(sim_settings_set(&settings, "phone.pose", "pocket", &error));
+    ck_assert_int_eq(settings.phone.pose, SIM_POSE_POCKET);
+    ck_assert(sim_settings_set(&settings, "phone.mounting", "random", &error));
+    ck_assert_int_eq(settings.phone.mounting, SIM_MOUNTING_RANDOM);
+    ck_assert(sim_settings_set(&settings, "magnet.model", "off", &error));
+    ck_assert_int_eq(settings.magnet.model, SIM_MAGNET_OFF);
     ck_assert(sim_settings_set(&settings, "log.start", "none", &error));
     ck_assert_int_eq(settings.log.start, SIM_START_NONE);
 }

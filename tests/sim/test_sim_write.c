@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "sim/write.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -378,6 +379,132 @@ START_TEST(a_survey_needs_no_sensor_and_tells_where_the_body_is)
 }
 END_TEST
 
+#define HANDHELD WALK "log.sensor = phone\nlog.truth = body\n"
+
+START_TEST(a_phone_writes_its_magnetometer_too)
+{
+    char error[512];
+    sim_report_t report;
+    ck_assert_msg(simulate("phone", HANDHELD "magnet.rate_hz = 20\n", 1, &report, error) == 0, "%s",
+                  error);
+    char *log = text_of("phone", "log.csv"), *truth = text_of("phone", "truth.csv");
+    double last = 0.0, t, m[3], p[3], x, y, size = 0.0;
+    size_t mags = lines_of(log, "mag,");
+    ck_assert_int_eq(sscanf(log, "start,0,%lf,%lf,", &x, &y), 2);
+    ASSERT_NEAR(hypot(x - 2.0, y - 3.0), 0.0, 1e-4, "m"); /* of the body, like the truth */
+    ck_assert_int_eq(sscanf(truth + 8, "%lf,%lf,%lf", &t, &p[0], &p[1]), 3);
+    ASSERT_NEAR(hypot(p[0] - 2.0, p[1] - 3.0), 0.0, 1e-4, "m");
+    for (const char *at = strchr(log, '\n') + 1; *at != '\0'; at = strchr(at, '\n') + 1) {
+        bool is_mag = sscanf(at, "mag,%lf,%lf,%lf,%lf\n", &t, &m[0], &m[1], &m[2]) == 4;
+        ck_assert(is_mag || sscanf(at, "imu,%lf", &t) == 1);
+        ck_assert(t >= last);
+        last = t;
+        size += is_mag ? sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]) / (double)mags : 0.0;
+    }
+    ASSERT_NEAR(size, 46.0, 12.0, "uT");
+    ASSERT_NEAR((double)mags, report.duration_s * 20.0, 1.01, "records");
+    ck_assert_uint_eq(lines_of(log, "imu,"), report.samples);
+    ASSERT_NEAR((double)report.samples, report.duration_s * 50.0, 1.01, "records");
+    free(log);
+    free(truth);
+}
+END_TEST
+
+static const char *const scored[] = {"ear", "swing", "pocket", "hand", "shuffle", "left", "right"};
+
+START_TEST(what_scores_a_phone_is_not_in_its_log)
+{
+    char error[512];
+    ck_assert_int_eq(simulate("scored", HANDHELD "pose,4,ear\n", 1, NULL, error), 0);
+    char *log = text_of("scored", "log.csv"), *poses = text_of("scored", "pose.csv");
+    char *steps = text_of("scored", "steps.csv");
+    ck_assert_str_eq(poses, "t,pose\n0.000,hand\n4.000,change\n5.000,ear\n");
+    ck_assert_uint_ge(lines_of(steps, ""), 9u);
+    for (size_t i = 0; i < sizeof scored / sizeof scored[0]; i++) {
+        ck_assert_ptr_null(strstr(log, scored[i]));
+    }
+    free(log);
+    free(poses);
+    free(steps);
+}
+END_TEST
+
+START_TEST(a_phone_without_magnetometer_writes_the_same_motion)
+{
+    char error[512];
+    ck_assert_int_eq(simulate("mag_on", HANDHELD, 2, NULL, error), 0);
+    ck_assert_int_eq(simulate("mag_off", HANDHELD "magnet.model = off\n", 2, NULL, error), 0);
+    char *on = text_of("mag_on", "log.csv"), *off = text_of("mag_off", "log.csv");
+    ck_assert_uint_eq(lines_of(off, "mag,"), 0u);
+    size_t kept = 0;
+    for (char *at = on, *next; *at != '\0'; at = next) { /* the log without its mag records */
+        next = strchr(at, '\n') + 1;
+        if (strncmp(at, "mag", 3) != 0) {
+            memmove(on + kept, at, (size_t)(next - at));
+            kept += (size_t)(next - at);
+        }
+    }
+    on[kept] = '\0';
+    ck_assert_str_eq(on, off);
+    free(on);
+    free(off);
+}
+END_TEST
+
+/* What belongs to the phone changes nothing in a shoe's files. */
+START_TEST(a_shoe_knows_nothing_of_phones)
+{
+    char error[512];
+    static const char *const files[] = {"log.csv", "truth.csv"};
+    ck_assert_int_eq(simulate("shoe_a", WALK, 7, NULL, error), 0);
+    ck_assert_int_eq(simulate("shoe_b",
+                              WALK "phone.rate_hz = 100\nphone.pose = swing\npose,3,ear\n"
+                                   "person.leg_m = 0.7\nmagnet.rate_hz = 10\n",
+                              7, NULL, error),
+                     0);
+    for (int i = 0; i < 2; i++) {
+        char *a = text_of("shoe_a", files[i]), *b = text_of("shoe_b", files[i]);
+        ck_assert_str_eq(a, b);
+        free(a);
+        free(b);
+    }
+}
+END_TEST
+
+#ifndef INSOLE_DOUBLE
+/* Squares of all readings of one walk, as the simulator made it before it knew phones; in double
+ * the generator draws other numbers. */
+START_TEST(shoe_walks_stay_as_they_are)
+{
+    char error[512];
+    ck_assert_int_eq(simulate("kept",
+                              "start,2,3,0.5\nwalk,4,3,1.2\nwalk.lead_in_s = 0.5\n"
+                              "walk.lead_out_s = 0\nimu.rate_hz = 50\n",
+                              11, NULL, error),
+                     0);
+    char *log = text_of("kept", "log.csv");
+    double values[6], squares[6] = {0.0};
+    size_t samples = 0;
+    for (const char *at = strstr(log, "\nimu"); at != NULL;
+         at = strstr(at + 1, "\nimu"), samples++) {
+        ck_assert_int_eq(sscanf(at, "\nimu,%*f,%lf,%lf,%lf,%lf,%lf,%lf", &values[0], &values[1],
+                                &values[2], &values[3], &values[4], &values[5]),
+                         6);
+        for (int i = 0; i < 6; i++) {
+            squares[i] += values[i] * values[i];
+        }
+    }
+    ck_assert_uint_eq(samples, 251u);
+    static const double kept[6] = {9841.77531648, 2253.30695424, 21456.3828226,
+                                   282.46609942,  851.094895428, 57.6882707066};
+    for (int i = 0; i < 6; i++) {
+        ASSERT_NEAR(squares[i] / kept[i], 1.0, 1e-9, "1");
+    }
+    free(log);
+}
+END_TEST
+#endif
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("sim/write");
@@ -396,6 +523,13 @@ Suite *insole_suite(void)
     suite_add(suite, "no file", files_that_cannot_be_opened_are_told);
     suite_add(suite, "room", long_errors_fit_the_room);
     suite_add(suite, "demo", the_demo_takes_a_minute_and_ends_where_it_began);
+    suite_add(suite, "phone", a_phone_writes_its_magnetometer_too);
+    suite_add(suite, "scoring", what_scores_a_phone_is_not_in_its_log);
+    suite_add(suite, "no magnetometer", a_phone_without_magnetometer_writes_the_same_motion);
+    suite_add(suite, "shoe", a_shoe_knows_nothing_of_phones);
+#ifndef INSOLE_DOUBLE
+    suite_add(suite, "kept", shoe_walks_stay_as_they_are);
+#endif
     suite_add(suite, "files", a_survey_needs_no_sensor_and_tells_where_the_body_is);
     return suite;
 }

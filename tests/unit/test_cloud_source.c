@@ -336,6 +336,17 @@ START_TEST(no_copy_goes_through_a_wall)
 }
 END_TEST
 
+START_TEST(it_is_put_elsewhere)
+{
+    insole_cloud_source_t source = {1, 2, 3, 4, 5, INSOLE_R(0.6), INSOLE_R(0.7), INSOLE_R(0.8), 9};
+    insole_cloud_source_put(&source, insole_spot(-1, -2), insole_sym2(13, 14, 15));
+    ck_assert(source.x_m == -1 && source.y_m == -2);
+    ck_assert(source.var_x_m2 == 13 && source.cov_xy_m2 == 14 && source.var_y_m2 == 15);
+    ck_assert(source.offset_rad == INSOLE_R(0.6) && source.sigma_offset_rad == INSOLE_R(0.7));
+    ck_assert(source.scale == INSOLE_R(0.8) && source.sigma_scale == 9);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("cloud_source");
@@ -354,5 +365,6 @@ Suite *insole_suite(void)
                    sizeof width_rows / sizeof width_rows[0]);
     suite_add(suite, "aside", copies_go_aside_by_a_share);
     suite_add(suite, "aside a wall", no_copy_goes_through_a_wall);
+    suite_add(suite, "put", it_is_put_elsewhere);
     return suite;
 }

@@ -228,6 +228,93 @@ START_TEST(null_is_refused)
 }
 END_TEST
 
+/* ---- what a phone tells ---- */
+
+static insole_spot_fix_t some_fix(void)
+{
+    insole_spot_fix_t fix = {7, {1, 2}, {4, 1, 9}, {3, 4}};
+    return fix;
+}
+
+START_TEST(a_phone_s_news_are_noted)
+{
+    static insole_rss_weigh_t rss;
+    insole_radio_map_t map;
+    memset(&map, 0, sizeof map);
+    insole_spot_fix_t fix = some_fix();
+    insole_evidence_clear(&news);
+    ck_assert_int_eq(insole_evidence_fix(&news, &fix), INSOLE_OK);
+    ck_assert_int_eq(insole_evidence_compass(&news, 7, INSOLE_R(0.5)), INSOLE_OK);
+    ck_assert_int_eq(insole_evidence_scatter(&news, INSOLE_R(0.2), INSOLE_R(0.3)), INSOLE_OK);
+    REFUSED(insole_evidence_rss(&news, &rss, spot(1.0, 2.0)), INSOLE_ERR_STATE);
+    rss.map = &map; /* one of no points, all compared */
+    rss.search.in_work = true;
+    ck_assert_int_eq(insole_evidence_rss(&news, &rss, spot(1.0, 2.0)), INSOLE_OK);
+    ck_assert_int_eq(insole_evidence_check(&news), INSOLE_OK);
+    ck_assert(news.fix == &fix && news.rss == &rss && news.has_compass);
+    ASSERT_NEAR(news.compass_rad, 7.0 - 6.283185307, 1e-6, "rad");
+    ASSERT_NEAR(news.sigma_compass_rad, 0.5, 1e-7, "rad");
+    ASSERT_NEAR(news.var_length_m2, 0.2, 1e-7, "m2");
+    ASSERT_NEAR(news.var_heading_rad2, 0.3, 1e-7, "rad2");
+    ASSERT_NEAR(log_weight(5.0, 5.0), 0.0, 0.0, ""); /* each particle its own, not here */
+    insole_evidence_turn(&news, insole_turn(1));
+    ASSERT_NEAR(news.rss_since.x_m, 1.0, 0.0, "m"); /* particles turn it */
+    ck_assert(news.fix == NULL && news.rss == NULL && news.readings == NULL && news.has_compass);
+}
+END_TEST
+
+START_TEST(what_a_phone_cannot_have_meant_is_refused)
+{
+    static insole_rss_weigh_t rss;
+    insole_real_t bad = (insole_real_t)odd[_i];
+    insole_spot_fix_t fix = some_fix();
+    insole_evidence_clear(&news);
+    fix.spot.y_m = bad;
+    REFUSED(insole_evidence_fix(&news, &fix), INSOLE_ERR_VALUE);
+    fix = some_fix();
+    fix.cov_m2.xy = 7;
+    REFUSED(insole_evidence_fix(&news, &fix), INSOLE_ERR_VALUE);
+    REFUSED(insole_evidence_fix(&news, NULL), INSOLE_ERR_NULL);
+    REFUSED(insole_evidence_compass(&news, bad, 1), INSOLE_ERR_VALUE);
+    REFUSED(insole_evidence_compass(&news, 0, bad), INSOLE_ERR_VALUE);
+    REFUSED(insole_evidence_compass(&news, 0, 0), INSOLE_ERR_VALUE);
+    REFUSED(insole_evidence_compass(&news, 0, 101), INSOLE_ERR_VALUE);
+    REFUSED(insole_evidence_scatter(&news, bad, 0), INSOLE_ERR_VALUE);
+    REFUSED(insole_evidence_scatter(&news, 0, bad), INSOLE_ERR_VALUE);
+    REFUSED(insole_evidence_scatter(&news, -1, 0), INSOLE_ERR_VALUE);
+    REFUSED(insole_evidence_scatter(&news, 0, -1), INSOLE_ERR_VALUE);
+    REFUSED(insole_evidence_scatter(&news, 101, 0), INSOLE_ERR_VALUE);
+    REFUSED(insole_evidence_scatter(&news, 0, 11), INSOLE_ERR_VALUE);
+    REFUSED(insole_evidence_rss(&news, NULL, spot(0.0, 0.0)), INSOLE_ERR_NULL);
+    REFUSED(insole_evidence_rss(&news, &rss, spot(odd[_i], 0.0)), INSOLE_ERR_VALUE);
+    fix = some_fix();
+    ck_assert_int_eq(insole_evidence_fix(NULL, &fix), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_evidence_compass(NULL, 0, 1), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_evidence_scatter(NULL, 0, 0), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_evidence_rss(NULL, &rss, spot(0.0, 0.0)), INSOLE_ERR_NULL);
+}
+END_TEST
+
+/* Written into the struct by hand, or changed after it was told. */
+START_TEST(the_check_finds_what_a_phone_cannot_have_meant)
+{
+    insole_real_t bad = (insole_real_t)odd[_i];
+    insole_spot_fix_t fix = some_fix();
+    insole_real_t *told[] = {&news.compass_rad, &news.sigma_compass_rad, &news.var_length_m2,
+                             &news.var_heading_rad2, &fix.since.x_m};
+    insole_evidence_clear(&news);
+    insole_evidence_fix(&news, &fix);
+    insole_evidence_compass(&news, 1, 1);
+    for (size_t k = 0; k < sizeof told / sizeof told[0]; k++) {
+        insole_real_t kept = *told[k];
+        ck_assert_int_eq(insole_evidence_check(&news), INSOLE_OK);
+        *told[k] = bad;
+        ck_assert_int_eq(insole_evidence_check(&news), INSOLE_ERR_VALUE);
+        *told[k] = kept;
+    }
+}
+END_TEST
+
 static void tell_all(void)
 {
     static insole_rss_t reading;
@@ -279,5 +366,8 @@ Suite *insole_suite(void)
     suite_add(suite, "out of range", what_is_out_of_range_is_refused);
     suite_add(suite, "null", null_is_refused);
     suite_add(suite, "check", the_check_finds_what_the_calls_would_refuse);
+    suite_add(suite, "phone", a_phone_s_news_are_noted);
+    suite_add_loop(suite, "phone, bad input", what_a_phone_cannot_have_meant_is_refused, 3);
+    suite_add_loop(suite, "phone, check", the_check_finds_what_a_phone_cannot_have_meant, 3);
     return suite;
 }

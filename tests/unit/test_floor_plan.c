@@ -654,6 +654,9 @@ START_TEST(bad_input)
     ck_assert(!insole_floor_plan_inside(NULL, 1, 1));
     ck_assert_int_eq(insole_floor_plan_walls_between(NULL, 1, 1, 2, 2, &between), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_floor_plan_walls_between(plan, 1, 1, 2, 2, NULL), INSOLE_ERR_NULL);
+    ck_assert(!insole_floor_plan_is_closed(NULL, 1, 1, 1));
+    ck_assert(insole_floor_plan_is_closed(plan, (insole_real_t)NAN, 1, 1));
+    ck_assert(insole_floor_plan_is_closed(plan, 1, INSOLE_R(1e30), 1));
     ck_assert_int_eq(insole_floor_plan_clearance(NULL, 1, 1, 2, &distance), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_floor_plan_clearance(plan, 1, 1, 2, NULL), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_floor_plan_clearance(plan, 1, 1, 0, &distance), INSOLE_ERR_VALUE);

@@ -32,7 +32,7 @@ static insole_spot_t spot(double complex at)
 static void begin(void)
 {
     static const insole_particle_filter_t blank;
-    insole_cloud_t c = {particles, 2, past, PAST};
+    insole_cloud_t c = {particles, 2, past, PAST, NULL};
     cloud = c;
     filter = blank;
     filter.has_fix = true;

@@ -124,6 +124,33 @@ START_TEST(refusals)
 }
 END_TEST
 
+/* Over all access points, one by one, in double. */
+START_TEST(distances_by_hand)
+{
+    worst_t off = {0, 0};
+    uint32_t heard = listen();
+    ck_assert_int_eq(begin(NULL, heard), INSOLE_OK);
+    insole_real_t heard_db2 = insole_map_search_heard_db2(&search, -100);
+    for (uint32_t point = 0; point < prints.map.point_count; point++) {
+        double squares = 0.0;
+        for (uint32_t ap = 0, entry; ap < prints.map.ap_count; ap++) {
+            double scan = -100.0, mapped = -100.0;
+            for (uint32_t i = 0; i < heard; i++) {
+                scan = readings[i].id == ap ? (double)readings[i].rss_dbm : scan;
+            }
+            if (insole_radio_map_find(&prints.map, point, ap, &entry)) {
+                mapped = (double)insole_radio_map_mean_dbm(&prints.map, entry);
+            }
+            squares += pow(scan - mapped, 2.0);
+        }
+        double found =
+            (double)insole_map_search_distance_db2(&search, &prints.map, point, -100, heard_db2);
+        worst_note(&off, fabs(found - squares) / (1.0 + (double)heard_db2), point);
+    }
+    ASSERT_WORST(off, 1e-5, "of the scan's");
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("map_search");
@@ -132,5 +159,6 @@ Suite *insole_suite(void)
     suite_add(suite, "area without points", area_without_points);
     suite_add(suite, "another map", another_map);
     suite_add(suite, "refusals", refusals);
+    suite_add(suite, "distances", distances_by_hand);
     return suite;
 }

@@ -34,7 +34,7 @@ static void make_cloud(uint64_t seed, uint32_t count, double x, double y, double
                                (insole_real_t)uniform(-spread, 0.0)};
         particles[i] = p;
     }
-    insole_cloud_t c = {particles, count, NULL, 0};
+    insole_cloud_t c = {particles, count, NULL, 0, NULL};
     cloud = c;
 }
 
@@ -219,7 +219,7 @@ START_TEST(a_slice_is_as_large_as_budget_and_cloud_allow)
                                         {25, 7, 25, 7},
                                         {3, 0, 3, 0},
                                         {1, UINT32_MAX, 20, UINT32_MAX - 19}};
-    insole_cloud_t twenty = {particles, 20, NULL, 0};
+    insole_cloud_t twenty = {particles, 20, NULL, 0, NULL};
     uint32_t budget = cases[_i][1];
     ck_assert_uint_eq(insole_cloud_slice(&twenty, cases[_i][0], &budget), cases[_i][2]);
     ck_assert_uint_eq(budget, cases[_i][3]);
@@ -515,6 +515,56 @@ END_TEST
 
 /* ---- the past ---- */
 
+/* A copy takes the bias of its source with it; who has none needs none. */
+START_TEST(the_bias_goes_with_its_particle)
+{
+    static insole_spot_t bias[500];
+    make_cloud(9u, 500, 0.0, 0.0, 5.0);
+    mark();
+    for (uint32_t i = 0; i < 500; i++) {
+        bias[i] = insole_spot((insole_real_t)i, -(insole_real_t)i);
+    }
+    cloud.bias = bias;
+    resample(0.4, 37);
+    uint32_t copies = 0;
+    for (uint32_t i = 0; i < 500; i++) {
+        ck_assert(bias[i].x_m == particles[i].x_m && bias[i].y_m == -particles[i].x_m);
+        copies += particles[i].x_m != (insole_real_t)i ? 1u : 0u;
+    }
+    ck_assert_uint_gt(copies, 50u);
+    cloud.bias = NULL;
+}
+END_TEST
+
+/* Offset and scale change by numbers of their own, and wrap. */
+START_TEST(wandering_apart)
+{
+    enum { M = 40000 };
+    insole_cloud_stride_t stride = straight;
+    double sum[2] = {0, 0}, square[2] = {0, 0}, product = 0.0;
+    stride.apart_wander_rad = INSOLE_R(0.2);
+    stride.apart_scale = INSOLE_R(0.01);
+    insole_rng_seed(&rng, 12u);
+    for (int i = 0; i < M; i++) {
+        insole_particle_t p = {3, 4, 3, INSOLE_R(1.1), -2};
+        insole_cloud_wander(&p, &stride, &rng);
+        double is[2] = {remainder((double)p.offset_rad - 3.0, 6.283185307179586) / 0.2,
+                        ((double)p.scale - 1.1) / 0.01};
+        for (int k = 0; k < 2; k++) {
+            sum[k] += is[k] / M;
+            square[k] += is[k] * is[k] / M;
+        }
+        product += is[0] * is[1] / M;
+        ck_assert(p.x_m == 3 && p.y_m == 4 && p.log_weight == -2 && p.offset_rad <= INSOLE_PI);
+    }
+    for (int k = 0; k < 2; k++) {
+        ASSERT_NEAR(sum[k], 0.0, 0.02, "sigmas");
+        ASSERT_NEAR(square[k], 1.0, 0.03, "");
+    }
+    ASSERT_NEAR(product, 0.0, 0.02, "");
+}
+END_TEST
+
 static void remember(uint32_t stride)
 {
     for (uint32_t i = 0; i < cloud.count; i++) {
@@ -575,7 +625,7 @@ END_TEST
 
 START_TEST(a_cloud_must_be_one)
 {
-    insole_cloud_t c = {particles, 1, NULL, 0};
+    insole_cloud_t c = {particles, 1, NULL, 0, NULL};
     ck_assert_int_eq(insole_cloud_check(&c), INSOLE_OK);
     c.count = INSOLE_CLOUD_PARTICLES_MAX;
     ck_assert_int_eq(insole_cloud_check(&c), INSOLE_OK);
@@ -643,5 +693,7 @@ Suite *insole_suite(void)
     suite_add(suite, "past mean", the_past_is_the_mean_over_ancestors);
     suite_add(suite, "check", a_cloud_must_be_one);
     suite_add(suite, "dead", there_is_no_fix_of_the_dead);
+    suite_add(suite, "bias", the_bias_goes_with_its_particle);
+    suite_add(suite, "wander", wandering_apart);
     return suite;
 }

@@ -51,7 +51,10 @@ static void try_choice(int32_t *key, int32_t low, int32_t high, const char *name
 
 START_TEST(settings_are_in_range_or_refused)
 {
-    config = _i == 0 ? insole_particle_filter_defaults : insole_particle_filter_two_order;
+    static const insole_particle_filter_config_t *const settings[] = {
+        &insole_particle_filter_defaults, &insole_particle_filter_two_order,
+        &insole_particle_filter_phone, &insole_particle_filter_phone_plain};
+    config = *settings[_i];
     expect(INSOLE_OK, "as it is");
     INSOLE_PARTICLE_FILTER_KEYS(TRY)
     config.field.spacing_m = -1;
@@ -68,6 +71,39 @@ START_TEST(the_paper_is_as_printed)
     ck_assert(config.sigma_wander_rad == 0 && config.sigma_scale == 0 && config.scale_memory == 1);
     ck_assert(config.spread_share == 0 && config.redraw_share == 0);
     ck_assert(config.turn_share > 0 && config.sigma_length_m > 0);
+}
+END_TEST
+
+/* Steps of a phone scatter by 0.3 of their length, 4 degrees across; the offset wanders by 2.5
+ * degrees, the scale by 0.005 about a scatter of 0.12. A shoe's settings have none of it. */
+START_TEST(a_stride_as_it_is_set)
+{
+    insole_evidence_t news;
+    insole_evidence_clear(&news);
+    insole_evidence_stride(&news, INSOLE_R(0.8), INSOLE_R(0.5), INSOLE_R(-0.2));
+    insole_cloud_stride_t s = insole_particle_config_stride(&insole_particle_filter_phone, &news);
+    ASSERT_NEAR(s.length_m, 0.8, 1e-6, "m");
+    ASSERT_NEAR(s.heading_rad, 0.5, 1e-6, "rad");
+    ASSERT_NEAR(s.sigma_length_m, 0.24, 1e-6, "m");
+    ASSERT_NEAR(s.sigma_heading_rad, 0.07, 1e-6, "rad");
+    ASSERT_NEAR(s.apart_wander_rad, 0.0436, 1e-6, "rad");
+    ASSERT_NEAR(s.apart_scale, 0.005, 1e-5, "");
+    ck_assert(s.sigma_wander_rad == 0 && s.sigma_scale == 0);
+    insole_evidence_scatter(&news, INSOLE_R(0.01), INSOLE_R(0.04));
+    s = insole_particle_config_stride(&insole_particle_filter_phone, &news);
+    ASSERT_NEAR(s.sigma_length_m, hypot(0.24, 0.1), 1e-6, "m");
+    ASSERT_NEAR(s.sigma_heading_rad, hypot(0.07, 0.2), 1e-6, "rad");
+    insole_evidence_scatter(&news, 0, 0);
+    config = insole_particle_filter_two_order;
+    s = insole_particle_config_stride(&config, &news);
+    ck_assert(s.sigma_length_m == config.sigma_length_m);
+    ck_assert(s.sigma_heading_rad == config.turn_share * news.turn_rad * -1);
+    config = insole_particle_filter_defaults;
+    s = insole_particle_config_stride(&config, &news);
+    ck_assert(s.sigma_length_m == config.sigma_length_m && s.sigma_heading_rad == 0);
+    ck_assert(s.sigma_wander_rad == config.sigma_wander_rad);
+    ck_assert(s.apart_wander_rad == 0 && s.apart_scale == 0);
+    ASSERT_NEAR(s.sigma_scale, (double)config.sigma_scale * sqrt(1.0 - 0.99 * 0.99), 1e-7, "");
 }
 END_TEST
 
@@ -136,8 +172,9 @@ Suite *insole_suite(void)
 {
     Suite *suite = suite_create("particle_config");
     TCase *tcase = tcase_create("settings");
-    tcase_add_loop_test(tcase, settings_are_in_range_or_refused, 0, 2);
+    tcase_add_loop_test(tcase, settings_are_in_range_or_refused, 0, 4);
     tcase_add_test(tcase, the_paper_is_as_printed);
+    tcase_add_test(tcase, a_stride_as_it_is_set);
     tcase_add_loop_test(tcase, a_scan_says_more_to_a_wide_cloud, 0, 2);
     tcase_add_test(tcase, power_stays_within_its_bounds);
     tcase_add_loop_test(tcase, the_paper_weighs_all_scans_alike, 0, 2);

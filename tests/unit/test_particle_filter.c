@@ -86,7 +86,7 @@ static void begin_world(uint64_t seed, double x0, double y0, double offset)
 
 static void begin_filter(const insole_particle_filter_config_t *config, uint32_t count)
 {
-    insole_cloud_t c = {particles, count, NULL, 0};
+    insole_cloud_t c = {particles, count, NULL, 0, NULL};
     cloud = c;
     slice = WHOLE;
     ck_assert_int_eq(insole_particle_filter_init(&filter, config, 42u), INSOLE_OK);
@@ -972,7 +972,7 @@ START_TEST(news_that_make_no_sense_are_refused)
     REFUSED(insole_particle_filter_begin(&filter, &radio.building, &news), INSOLE_ERR_VALUE);
     REFUSED(insole_particle_filter_begin(&filter, &radio.building, NULL), INSOLE_ERR_NULL);
     insole_particle_start_t s = start_at(1.0, 1.0, 0.1, 0.0, 0.1);
-    insole_cloud_t none = {NULL, 3, NULL, 0}, empty = {particles, 0, NULL, 0};
+    insole_cloud_t none = {NULL, 3, NULL, 0, NULL}, empty = {particles, 0, NULL, 0, NULL};
     REFUSED(insole_particle_filter_start(&filter, NULL, &s), INSOLE_ERR_NULL);
     REFUSED(insole_particle_filter_start(&filter, &none, &s), INSOLE_ERR_NULL);
     REFUSED(insole_particle_filter_start(&filter, &empty, &s), INSOLE_ERR_VALUE);
@@ -988,7 +988,7 @@ START_TEST(another_cloud_is_left_alone)
     insole_evidence_t news = stride_of(1);
     begin(&news);
     keep_whole();
-    insole_cloud_t other = {particles, N + 1, NULL, 0};
+    insole_cloud_t other = {particles, N + 1, NULL, 0, NULL};
     ck_assert(!insole_particle_filter_work(&filter, &other, &radio.building, 10));
     ck_assert(!insole_particle_filter_work(&filter, NULL, &radio.building, 10));
     ck_assert(!insole_particle_filter_work(NULL, &cloud, &radio.building, 10));

@@ -41,7 +41,7 @@ static void begin_world(void)
 
 static void start(uint32_t count, double x, double y, double sigma_m, double sigma_rad)
 {
-    insole_cloud_t c = {particles, count, past, PAST};
+    insole_cloud_t c = {particles, count, past, PAST, NULL};
     insole_particle_start_t s = {(insole_real_t)x, (insole_real_t)y, (insole_real_t)sigma_m,
                                  INSOLE_R(0.4), (insole_real_t)sigma_rad};
     cloud = c;

@@ -26,6 +26,14 @@ bool calibrate_gyro_scale(const arguments_t *arguments, const char *const *sessi
 bool calibrate_pathloss(const arguments_t *arguments, const char *const *sessions, size_t count,
                         FILE *file, failure_t *failure);
 
+/** Coefficients of the step length's models from walks with truth, or of `--distance`. */
+bool calibrate_steplength(const arguments_t *arguments, const char *const *sessions, size_t count,
+                          FILE *file, failure_t *failure);
+
+/** Magnetic north on the map from walks with truth and a phone that points ahead. */
+bool calibrate_compass(const arguments_t *arguments, const char *const *sessions, size_t count,
+                       FILE *file, failure_t *failure);
+
 /** Prints `key = value` with so many decimals. */
 void calibrate_line(FILE *file, const char *key, double value, int decimals);
 

@@ -16,7 +16,9 @@ typedef struct {
 static const calibration_t calibrations[] = {{"imu", calibrate_imu},
                                              {"stride", calibrate_stride},
                                              {"gyro-scale", calibrate_gyro_scale},
-                                             {"pathloss", calibrate_pathloss}};
+                                             {"pathloss", calibrate_pathloss},
+                                             {"steplength", calibrate_steplength},
+                                             {"compass", calibrate_compass}};
 
 static const calibration_t *find_calibration(const char *name)
 {
@@ -33,8 +35,10 @@ static bool run(const arguments_t *arguments, failure_t *failure)
     const char *name = arguments->operand_count > 0u ? arguments->operands[0] : "nothing";
     const calibration_t *calibration = find_calibration(name);
     if (calibration == NULL) {
-        return failure_usage(
-            failure, "insole calibrate %.40s: expected imu, stride, gyro-scale or pathloss", name);
+        return failure_usage(failure,
+                             "insole calibrate %.40s: expected imu, stride, gyro-scale, pathloss, "
+                             "steplength or compass",
+                             name);
     }
     if (arguments->operand_count < 2u) {
         return failure_usage(failure, "insole calibrate %s: no log: expected one or more", name);
@@ -46,6 +50,7 @@ static bool run(const arguments_t *arguments, failure_t *failure)
 
 static const option_t options[] = {
     {"turns", "N", "gyro-scale: how many whole turns"},
+    {"distance", "M", "steplength: length of the one walk; without it truth tells"},
     {"accel-unit", "UNIT", "mps2 (default), g or mg"},
     {"gyro-unit", "UNIT", "radps (default) or dps"},
     {"aps", "FILE", "pathloss: where the access points are"},
@@ -56,7 +61,7 @@ static const option_t options[] = {
 
 const command_t command_calibrate = {
     "calibrate",
-    "imu|stride|gyro-scale|pathloss SESSION...",
+    "imu|stride|gyro-scale|pathloss|steplength|compass SESSION...",
     "measure what the defaults cannot know",
     "Every SESSION (a file or a folder) stands for itself. What is printed are config lines for\n"
     "`replay --config FILE`.\n"
@@ -71,6 +76,10 @@ const command_t command_calibrate = {
     "              p0, exponent, losses of walls and body, sigma, how good they are, and what "
     "looks\n"
     "              misplaced; --out writes the access points with the values of each\n"
+    "  steplength  coefficients of each model of a phone walker's steps, with standard errors, by\n"
+    "              the truth of the sessions, or by --distance for one\n"
+    "  compass     magnetic north on the map, by the truth of sessions in which a phone with a\n"
+    "              magnetometer is held pointing ahead\n"
     "\n"
     "  insole calibrate imu desk.csv >> my.conf\n"
     "  insole calibrate gyro-scale chair.csv --turns 10 >> my.conf\n"

@@ -17,6 +17,7 @@ static const command_t *const commands[] = {&command_replay,
                                             &command_plan,
                                             &command_pack,
                                             &command_radiomap,
+                                            &command_train_carry,
                                             NULL};
 
 const command_t *const *help_commands(void)
@@ -44,11 +45,11 @@ void help_program(FILE *file)
         "Commands\n",
         file);
     for (const command_t *const *command = commands; *command != NULL; command++) {
-        fprintf(file, "  %-10s %s\n", (*command)->name, (*command)->purpose);
+        fprintf(file, "  %-11s %s\n", (*command)->name, (*command)->purpose);
     }
     fputs("\n"
           "insole COMMAND --help    options and examples of a command\n"
-          "insole help files        formats of logs, tracks, plans and access points\n"
+          "insole help files        formats of logs, tracks, plans, access points and radio maps\n"
           "insole --version\n"
           "\n"
           "Exit: 0 done, 1 bad input, 2 wrong usage.\n",
@@ -80,7 +81,7 @@ void help_files(FILE *file)
         "t,x,y and perhaps z make a truth. Any order, other columns are passed over.\n"
         "\n"
         "Session: several logs on one clock, or a folder of them, merged by time. A folder may\n"
-        "hold the building too, as plan.csv and aps.csv.\n"
+        "hold the building too, as plan.csv, aps.csv and radiomap.csv.\n"
         "\n"
         "Track (replay --out): t,x,y,z,heading,var_x,cov_xy,var_y,var_z,var_heading,state\n"
         "  state: align (not yet stood still), search (place not known), track, coast (readings\n"
@@ -100,6 +101,10 @@ void help_files(FILE *file)
         "Access points: a header that names the columns id,x,y,z,p0_dbm,exponent,near_dbm in any\n"
         "order, then one access point a line. id,x,y must be there; an empty field tells nothing.\n"
         "  p0_dbm: received at 1 m; exponent: of the path loss; near_dbm: mean received at 1.5 m\n"
+        "\n"
+        "Radio map: a header that names the columns x,y,id,mean_dbm,std_dbm,count in any order,\n"
+        "then one access point at one point a line; std_dbm and count may be missing. Rows whose\n"
+        "places are equal to the millimetre are one point. `insole radiomap` makes it.\n"
         "\n"
         "Config: lines  key = value ; `insole config` prints all keys.\n",
         file);

@@ -6,10 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "number.h"
-#include "platform.h"
+#include "c_text.h"
 
-enum { LINE_WIDTH = 96, MOST_DIGITS = sizeof(insole_real_t) == sizeof(float) ? 9 : 17 };
+enum { LINE_WIDTH = 96 };
 
 typedef struct {
     FILE *file;
@@ -32,59 +31,16 @@ bool pack_is_name(const char *name)
     return true;
 }
 
-/* ---- numbers and text ------------------------------------------------------------------- */
-
-static bool gives_back(const char *number, insole_real_t value)
-{
-    bool is_float = sizeof value == sizeof(float);
-    return (is_float ? (double)strtof(number, NULL) : strtod(number, NULL)) == (double)value;
-}
-
-/* A literal of the library's real type, with as few digits as give it back. */
-static const char *real_text(char buffer[NUMBER_ROOM + 16], insole_real_t value)
-{
-    char number[NUMBER_ROOM];
-    int digits = 5;
-    do {
-        snprintf(number, sizeof number, "%.*g", ++digits, (double)value);
-    } while (digits < MOST_DIGITS && !gives_back(number, value));
-    snprintf(buffer, NUMBER_ROOM + 16, "INSOLE_R(%s%s)", number,
-             strpbrk(number, ".e") == NULL ? ".0" : "");
-    return buffer;
-}
+/* ---- numbers ----------------------------------------------------------------------------- */
 
 /* Writes `{a, b, ...}`. */
 static void write_reals(FILE *file, const insole_real_t *values, size_t count)
 {
-    char buffer[NUMBER_ROOM + 16];
+    char buffer[C_REAL_ROOM];
     for (size_t i = 0u; i < count; i++) {
-        fprintf(file, "%s%s", i == 0u ? "{" : ", ", real_text(buffer, values[i]));
+        fprintf(file, "%s%s", i == 0u ? "{" : ", ", c_real(buffer, values[i]));
     }
     putc('}', file);
-}
-
-/* What is not a plain character is written in octal; `?` too, so that no trigraph comes about. */
-static void write_string(FILE *file, const char *text)
-{
-    putc('"', file);
-    for (; *text != '\0'; text++) {
-        unsigned char c = (unsigned char)*text;
-        if (c < 0x20u || c > 0x7eu || c == '"' || c == '\\' || c == '?') {
-            fprintf(file, "\\%03o", (unsigned)c);
-        } else {
-            putc(c, file);
-        }
-    }
-    putc('"', file);
-}
-
-/* The name of a file in a comment, which it must not end. */
-static void write_comment(FILE *file, const char *path)
-{
-    for (const char *text = platform_base_name(path); *text != '\0'; text++) {
-        bool is_plain = (unsigned char)*text >= 0x20u && strchr("*\\?", *text) == NULL;
-        putc(is_plain ? *text : '_', file);
-    }
 }
 
 /* ---- plan ------------------------------------------------------------------------------- */
@@ -159,13 +115,13 @@ static void write_plan(const writer_t *writer)
     } reals[] = {{"origin_x_m", plan->origin_x_m}, {"origin_y_m", plan->origin_y_m},
                  {"cell_m", plan->cell_m},         {"cells_per_m", plan->cells_per_m},
                  {"spot_x", plan->spot_x},         {"spot_y", plan->spot_y}};
-    char buffer[NUMBER_ROOM + 16];
+    char buffer[C_REAL_ROOM];
     write_walls(writer);
     write_cells(writer);
     write_table(writer, "uint16_t", "entries", site_entry_count(plan), entry_at);
     fprintf(writer->file, "const insole_floor_plan_t %s_plan = {\n", writer->name);
     for (size_t i = 0u; i < sizeof reals / sizeof reals[0]; i++) {
-        fprintf(writer->file, "    .%s = %s,\n", reals[i].name, real_text(buffer, reals[i].value));
+        fprintf(writer->file, "    .%s = %s,\n", reals[i].name, c_real(buffer, reals[i].value));
     }
     fprintf(writer->file,
             "    .columns = %u,\n    .rows = %u,\n    .outline_walls = %u,\n    .ring_walls = %u,\n"
@@ -214,6 +170,11 @@ static void write_aps(const writer_t *writer)
     static uint32_t name(const site_t *site, size_t i)                                             \
     {                                                                                              \
         return site->radiomap_file.map.member[i];                                                  \
+    fprintf(file, "};\n\nconst char *const %s_ap_ids[%lu] = {\n", writer->name, count);
+    for (size_t i = 0u; i < aps->count; i++) {
+        fputs("    ", file);
+        c_write_string(file, aps->ids.names[i]);
+        fputs(",\n", file);
     }
 
 MAP_COLUMN(first_at, first)
@@ -320,6 +281,9 @@ static void write_head(const writer_t *writer)
     const site_t *site = writer->site;
     fputs("/* Made by `insole pack` from ", writer->file);
     write_sources(writer);
+    c_write_comment(writer->file, site->building.plan != NULL ? site->plan_file.name : "");
+    fputs(site->building.plan != NULL && site->ap_file.count > 0u ? " and " : "", writer->file);
+    c_write_comment(writer->file, site->ap_file.count > 0u ? site->ap_file.name : "");
     fprintf(writer->file,
             ": change those, not this.\n"
             " * The plan takes %lu bytes, the access points %lu and their ids",

@@ -19,7 +19,7 @@ typedef struct {
 static recipe_t recipe_of(method_t method)
 {
     const recipe_t recipes[METHODS] = {
-        [METHOD_PHONE_BEST] = {insole_attitude_ekf, &insole_kde_fix_calls, &insole_step_ekf_calls,
+        [METHOD_PHONE_BEST] = {insole_attitude_ekf, &insole_kde_fix_calls, &insole_walker_ekf_calls,
                                false},
         [METHOD_PHONE_PDR] = {insole_attitude_ekf, NULL, &insole_step_ekf_calls, false},
         [METHOD_PDR_GYRO] = {NULL, NULL, &insole_step_ekf_calls, false},
@@ -48,18 +48,27 @@ static bool set_up_solver(phone_parts_t *parts, const phone_settings_t *settings
            insole_ml_fix_init(&parts->ml_fix, &settings->ml_fix) == INSOLE_OK;
 }
 
+static void *state_of(phone_parts_t *parts, const insole_step_filter_calls_t *calls)
+{
+    if (calls == &insole_ml_shift_calls) {
+        return &parts->ml_shift;
+    }
+    return calls == &insole_walker_ekf_calls ? (void *)&parts->walker_ekf
+                                             : (void *)&parts->step_fusion;
+}
+
 static bool set_up_filter(phone_parts_t *parts, const phone_settings_t *settings,
                           const recipe_t *recipe)
 {
     insole_step_fusion_config_t fusion = settings->step_fusion;
-    bool is_shift = recipe->filter == &insole_ml_shift_calls;
     if (recipe->is_constant) {
         fusion.process = fusion.measurement = INSOLE_STEP_CONSTANT;
     }
     parts->library.filter.calls = recipe->filter;
-    parts->library.filter.state = is_shift ? (void *)&parts->ml_shift : (void *)&parts->step_fusion;
+    parts->library.filter.state = state_of(parts, recipe->filter);
     return insole_step_fusion_init(&parts->step_fusion, &fusion) == INSOLE_OK &&
-           insole_ml_shift_init(&parts->ml_shift, &settings->ml_shift) == INSOLE_OK;
+           insole_ml_shift_init(&parts->ml_shift, &settings->ml_shift) == INSOLE_OK &&
+           insole_walker_ekf_init(&parts->walker_ekf, &settings->walker_ekf) == INSOLE_OK;
 }
 
 bool phone_parts_init(phone_parts_t *parts, const estimator_setup_t *setup)

@@ -11,6 +11,7 @@
 
 #include "insole/fuse/ml_shift.h"
 #include "insole/fuse/step_fusion.h"
+#include "insole/fuse/walker_ekf.h"
 #include "insole/place/kde_fix.h"
 #include "insole/place/ml_fix.h"
 #include "insole/track/phone_tracker.h"
@@ -24,6 +25,7 @@ typedef struct {
     const insole_radio_map_t *map; /**< NULL: the method has no use for it, or there is none */
     insole_step_fusion_t step_fusion;
     insole_ml_shift_t ml_shift;
+    insole_walker_ekf_t walker_ekf;
     insole_kde_fix_t kde_fix;
     insole_ml_fix_t ml_fix;
 } phone_parts_t;

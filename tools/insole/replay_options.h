@@ -14,7 +14,7 @@
     {"tracker", "foot|phone", "where the sensor is: on the shoe (default), or in a phone that the\n"\
      "walker carries"},                                                                           \
     {"plan", "FILE", "floor plan: its walls hold the track; a folder that is replayed may bring\n"\
-     "its own plan.csv, aps.csv and radiomap.csv"},                                                             \
+     "its own plan.csv, aps.csv and radiomap.csv"},                                               \
     {"aps", "FILE", "access points: radio in the log holds the track"},                           \
     {"radiomap", "FILE", "fingerprints, as `insole radiomap` makes them: radio in the log of a\n"  \
      "phone holds its track; the foot tracker leaves them aside"},                                                                               \

@@ -19,9 +19,13 @@ static bool open_log(session_t *session, const char *path, bool is_from_folder, 
 
 static bool is_no_log(const char *path)
 {
-    const char *name = platform_base_name(path);
-    return strcmp(name, "plan.csv") == 0 || strcmp(name, "aps.csv") == 0 ||
-           strcmp(name, "radiomap.csv") == 0;
+    static const char *const others[] = {"plan.csv", "aps.csv", "radiomap.csv", "pose.csv",
+                                         "steps.csv"};
+    bool is_other = false;
+    for (size_t i = 0u; i < sizeof others / sizeof others[0]; i++) {
+        is_other = is_other || strcmp(platform_base_name(path), others[i]) == 0;
+    }
+    return is_other;
 }
 
 static bool open_folder(session_t *session, const char *folder, failure_t *failure)

@@ -9,7 +9,8 @@
  *      while (session_next(&session, &record, &failure) == READ_ONE) ...
  *      session_close(&session);
  *
- *  A folder stands for its .csv files but plan.csv, aps.csv, radiomap.csv and tracks.
+ *  A folder stands for its .csv files but plan.csv, aps.csv, radiomap.csv, tracks, and the
+ *  pose.csv and steps.csv of a simulated phone.
  *
  *  SPDX-License-Identifier: MIT
  */

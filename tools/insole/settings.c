@@ -11,6 +11,7 @@ void settings_init(settings_t *settings)
     settings->phone.tracker = insole_phone_tracker_defaults;
     settings->phone.step_fusion = insole_step_fusion_defaults;
     settings->phone.ml_shift = insole_ml_shift_defaults;
+    settings->phone.walker_ekf = insole_walker_ekf_defaults;
     settings->phone.kde_fix = insole_kde_fix_defaults;
     settings->phone.ml_fix = insole_ml_fix_defaults;
 }

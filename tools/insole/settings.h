@@ -7,6 +7,7 @@
 
 #include "insole/fuse/ml_shift.h"
 #include "insole/fuse/step_fusion.h"
+#include "insole/fuse/walker_ekf.h"
 #include "insole/place/kde_fix.h"
 #include "insole/place/ml_fix.h"
 #include "insole/track/foot_fusion.h"
@@ -38,6 +39,7 @@ typedef struct {
     insole_phone_tracker_config_t tracker;
     insole_step_fusion_config_t step_fusion;
     insole_ml_shift_config_t ml_shift;
+    insole_walker_ekf_config_t walker_ekf;
     insole_kde_fix_config_t kde_fix;
     insole_ml_fix_config_t ml_fix;
 } phone_settings_t;

@@ -103,6 +103,37 @@ static inline sim_mat3_t sim_mat3_from_euler(double roll_rad, double pitch_rad, 
     return m;
 }
 
+/** The turn by |v| about v. */
+static inline sim_mat3_t sim_mat3_from_turn(sim_vec3_t v)
+{
+    double angle2 = sim_vec3_dot(v, v), angle = sqrt(angle2), half = sin(0.5 * angle);
+    double s = angle < 1e-4 ? 1.0 - angle2 / 6.0 : sin(angle) / angle;
+    double c = angle < 1e-4 ? 0.5 - angle2 / 24.0 : 2.0 * half * half / angle2;
+    sim_mat3_t m = {
+        {1.0 - c * (v.y * v.y + v.z * v.z), c * v.x * v.y - s * v.z, c * v.x * v.z + s * v.y},
+        {c * v.x * v.y + s * v.z, 1.0 - c * (v.x * v.x + v.z * v.z), c * v.y * v.z - s * v.x},
+        {c * v.x * v.z - s * v.y, c * v.y * v.z + s * v.x, 1.0 - c * (v.x * v.x + v.y * v.y)}};
+    return m;
+}
+
+/** The turn that a rotation is, by 0 to pi. */
+static inline sim_vec3_t sim_mat3_turn(sim_mat3_t m)
+{
+    sim_vec3_t w = sim_vec3(m.r2.y - m.r1.z, m.r0.z - m.r2.x, m.r1.x - m.r0.y); /* 2 sin axis */
+    double sine = 0.5 * sim_vec3_norm(w), cosine = 0.5 * (m.r0.x + m.r1.y + m.r2.z - 1.0);
+    double angle = atan2(sine, cosine);
+    if (sine > 1e-6 || cosine > 0.0) {
+        return sim_vec3_scale(w, sine > 1e-6 ? 0.5 * angle / sine : 0.5);
+    }
+    sim_vec3_t axis = sim_vec3(m.r0.x + 1.0, m.r0.y, m.r0.z); /* a row of 1 + R = 2 axis axis' */
+    if (m.r1.y > m.r0.x && m.r1.y >= m.r2.z) {
+        axis = sim_vec3(m.r1.x, m.r1.y + 1.0, m.r1.z);
+    } else if (m.r2.z > m.r0.x) {
+        axis = sim_vec3(m.r2.x, m.r2.y, m.r2.z + 1.0);
+    }
+    return sim_vec3_scale(axis, angle / sim_vec3_norm(axis));
+}
+
 /** First derivative in the middle of five values that are `step` apart; error step^4 / 30 f(5). */
 static inline sim_vec3_t sim_vec3_derivative(const sim_vec3_t f[5], double step)
 {

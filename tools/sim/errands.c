@@ -239,14 +239,14 @@ static bool add_survey(planner_t *p, const sim_order_t *order)
     if (!open_map(p, "a survey")) {
         return sim_fail_on_line(p->error, order->line);
     }
-    if (!sim_grid(&p->scenario->plan, order->spacing_m, p->settings->clearance_m, &points)) {
+    if (!sim_reference_points(p->scenario, order->spacing_m, &points)) {
         return sim_fail(p->error, "out of memory");
     }
     bool good = points.count > 0;
     if (good) {
         good = visit_all(p, &points, order->line);
     } else {
-        sim_fail(p->error, "no point of the grid is inside the plan, expected a smaller spacing");
+        sim_fail(p->error, "no reference point is inside the plan, expected a smaller spacing");
         sim_fail_on_line(p->error, order->line);
     }
     sim_list_free(&points);

@@ -68,14 +68,6 @@ static sim_vec3_t swung(const sim_gait_t *gait, const sim_stride_t *stride, doub
                     ball - gait->ball_m * sin(pitch_rad));
 }
 
-/* What rings, from the strike on: a wave and its double that together set in smoothly (as t^4),
- * and die away; the peak of its second derivative is about wave^2. */
-static double ringing(const sim_shock_t *shock, double since_strike_s)
-{
-    double swing = 1.0 - cos(shock->wave_radps * since_strike_s);
-    return exp(-since_strike_s / shock->decay_s) * swing * swing / 3.0;
-}
-
 static double tremble(const sim_tremble_t *waves, double t_s)
 {
     double sum = 0.0;
@@ -132,7 +124,8 @@ static void add_shock(const sim_gait_t *gait, long number, double t_s, sim_vec3_
     }
     if (stride != NULL) {
         const sim_shock_t *shock = &stride->shock;
-        double since_s = t_s - stride->strike_s, size = ringing(shock, since_s);
+        double since_s = t_s - stride->strike_s,
+               size = sim_ringing(shock->wave_radps, shock->decay_s, since_s);
         double missing_s = -shock->settle_s * exp(-since_s / shock->settle_s);
         *position_m = sim_vec3_add_scaled(*position_m, missing_s, shock->settle_mps);
         *position_m = sim_vec3_add_scaled(*position_m, size, shock->shake_m);

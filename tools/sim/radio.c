@@ -18,7 +18,7 @@ static sim_radio_settings_t effective(const sim_radio_settings_t *settings)
         kept.p0_spread_db = kept.exponent_spread = kept.wall_spread = 0.0;
         kept.wall_keep = 1.0;
         kept.shadow_db = kept.body_db = kept.offset_db = 0.0;
-        kept.step_db = kept.lost_share = 0.0;
+        kept.step_db = kept.lost_share = kept.crowd_db = 0.0;
     }
     return kept;
 }
@@ -41,6 +41,7 @@ static bool add_sources(sim_radio_t *radio, const sim_list_t *aps, uint64_t buil
         source.p0_dbm = or_default(ap->p0_dbm, s->p0_dbm) + s->p0_spread_db * normal(&unit);
         source.exponent =
             fmax(1.0, or_default(ap->exponent, s->exponent) + s->exponent_spread * normal(&unit));
+        source.crowd = normal(&radio->people);
         sim_shadow_init(&source.shadow, s->shadow_db, s->shadow_m, &shadow);
         if (!sim_list_add(&radio->sources, &source)) {
             return false;
@@ -80,6 +81,7 @@ bool sim_radio_open(sim_radio_t *radio, const sim_scenario_t *scenario, uint64_t
     uint64_t building = number == 0 ? seed : number;
     sim_seed(&receiver, seed, SIM_SEED_RADIO_RECEIVER);
     sim_seed(&radio->noise, seed, SIM_SEED_RADIO_NOISE);
+    sim_seed(&radio->people, seed, SIM_SEED_RADIO_CROWD);
     radio->offset_db = radio->settings.offset_db * normal(&receiver);
     if (add_sources(radio, &scenario->aps, building) && add_losses(radio, building)) {
         return true;
@@ -138,6 +140,21 @@ static double audibility(const sim_radio_settings_t *settings, double dbm)
     return 1.0 / (1.0 + exp((settings->floor_dbm - dbm) / settings->floor_soft_db));
 }
 
+void sim_radio_wait(sim_radio_t *radio, double seconds)
+{
+    double keep = exp(-seconds / radio->settings.crowd_s), push = sqrt(1.0 - keep * keep);
+    for (size_t i = 0; i < radio->sources.count; i++) {
+        sim_source_t *source = sim_list_at(&radio->sources, i);
+        source->crowd = keep * source->crowd + push * normal(&radio->people);
+    }
+}
+
+static double crowd_loss(const sim_radio_t *radio, size_t ap)
+{
+    const sim_source_t *source = sim_list_at(&radio->sources, ap);
+    return radio->settings.crowd_db * fmax(0.0, source->crowd);
+}
+
 bool sim_radio_hear(sim_radio_t *radio, size_t ap, sim_vec3_t at_m, double heading_rad, double *dbm)
 {
     const sim_radio_settings_t *s = &radio->settings;
@@ -149,7 +166,7 @@ bool sim_radio_hear(sim_radio_t *radio, size_t ap, sim_vec3_t at_m, double headi
         *dbm = mean + s->noise_db * a;
         return mean >= s->floor_dbm;
     }
-    double received = mean + rice(s->rice_db, a, b);
+    double received = mean + rice(s->rice_db, a, b) - crowd_loss(radio, ap);
     *dbm = s->step_db > 0.0 ? s->step_db * round(received / s->step_db) : received;
     return luck < audibility(s, received) && loss >= s->lost_share;
 }

@@ -2,14 +2,22 @@
 #include "sim/scans.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "sim/trunk.h"
+
+/* Of the readings of one access point in a scan. */
+typedef struct {
+    double dbm, count;
+} sum_t;
 
 typedef struct {
     const sim_walk_t *walk;
     sim_radio_t radio;
     insole_rng_t times;
     sim_list_t *heard;
+    sum_t *sums;   /* by access point */
+    double last_s; /* of the last reading */
 } scanner_t;
 
 /* When a scan is heard, and when it is in the log. */
@@ -49,14 +57,36 @@ static sim_vec3_t place_at(const scanner_t *scanner, double t_s, const sim_place
     return body.pose(body.state, t_s).position_m;
 }
 
+/* One reading of all access points, added to what the scan has heard of each. */
+static void read_once(scanner_t *scanner, double t_s)
+{
+    sim_place_t trunk = sim_trunk_at(sim_walk_steps(scanner->walk), t_s);
+    sim_vec3_t at = place_at(scanner, t_s, &trunk);
+    sim_radio_wait(&scanner->radio, fmax(0.0, t_s - scanner->last_s));
+    scanner->last_s = fmax(t_s, scanner->last_s);
+    for (size_t i = 0; i < scanner->radio.sources.count; i++) {
+        double dbm;
+        if (sim_radio_hear(&scanner->radio, i, at, trunk.heading_rad, &dbm)) {
+            scanner->sums[i].dbm += dbm;
+            scanner->sums[i].count += 1.0;
+        }
+    }
+}
+
 static bool listen(scanner_t *scanner, const scan_t *scan)
 {
-    sim_place_t trunk = sim_trunk_at(sim_walk_steps(scanner->walk), scan->heard_s);
-    sim_vec3_t at = place_at(scanner, scan->heard_s, &trunk);
-    for (size_t i = 0; i < scanner->radio.sources.count; i++) {
+    const sim_radio_settings_t *s = &scanner->radio.settings;
+    size_t sources = scanner->radio.sources.count;
+    int readings = (int)s->readings;
+    memset(scanner->sums, 0, sources * sizeof *scanner->sums);
+    for (int k = readings - 1; k >= 0; k--) {
+        read_once(scanner, fmax(0.0, scan->heard_s - k * s->period_s / readings));
+    }
+    for (size_t i = 0; i < sources; i++) {
+        const sum_t *sum = &scanner->sums[i];
         sim_heard_t heard = {scan->logged_s, scan->logged_s - scan->heard_s, i, 0.0};
-        bool is_heard = sim_radio_hear(&scanner->radio, i, at, trunk.heading_rad, &heard.dbm);
-        if (is_heard && scan->comes && scan->logged_s <= sim_walk_duration(scanner->walk) &&
+        heard.dbm = sum->dbm / fmax(1.0, sum->count);
+        if (sum->count > 0.0 && scan->comes && scan->logged_s <= sim_walk_duration(scanner->walk) &&
             !sim_list_add(scanner->heard, &heard)) {
             return false;
         }
@@ -104,7 +134,9 @@ bool sim_scans_make(const sim_walk_t *walk, const sim_scenario_t *scenario, uint
         return false;
     }
     sim_seed(&scanner.times, seed, SIM_SEED_RADIO_SCANS);
-    bool done = scan_all(&scanner);
+    scanner.sums = malloc(scanner.radio.sources.count * sizeof *scanner.sums);
+    bool done = scanner.sums != NULL && scan_all(&scanner);
+    free(scanner.sums);
     sim_radio_close(&scanner.radio);
     if (!done) {
         sim_list_free(heard);

@@ -101,7 +101,7 @@ static bool read_order(sim_scenario_t *scenario, const char *name, char *rest, i
         return sim_fail(error,
                         "'%.60s' is no order, expected start, walk, stairs, pause, turn, errands, "
                         "survey, goal, "
-                        "plan, aps or key = value",
+                        "plan, aps, pose, points or key = value",
                         name);
     }
     bool is_first = scenario->orders.count == 0;
@@ -131,6 +131,42 @@ static bool read_goal(sim_scenario_t *scenario, char *rest, int line, sim_error_
         return false;
     }
     return sim_list_add(&scenario->goals, &goal) || sim_fail(error, "out of memory");
+}
+
+static bool read_points(sim_scenario_t *scenario, char *rest, sim_error_t *error)
+{
+    static const char *const names[4] = {"x", "y", "x", "y"};
+    double values[4];
+    for (int i = 0; i < 4; i++) {
+        const char *text = sim_text_field(&rest);
+        if (text == NULL) {
+            return sim_fail(error, "too few fields, expected points,x,y,x,y");
+        }
+        if (!sim_text_number(text, names[i], -1e5, 1e5, &values[i], error)) {
+            return false;
+        }
+    }
+    sim_line_t line = {{values[0], values[1]}, {values[2], values[3]}};
+    if (rest != NULL) {
+        return sim_fail(error, "too many fields, expected points,x,y,x,y");
+    }
+    return sim_list_add(&scenario->lines, &line) || sim_fail(error, "out of memory");
+}
+
+static bool read_pose(sim_scenario_t *scenario, char *rest, int line, sim_error_t *error)
+{
+    sim_pose_change_t change = {.line = line};
+    const char *time = sim_text_field(&rest), *name = sim_text_field(&rest);
+    sim_settings_t named = sim_settings_defaults;
+    if (name == NULL || rest != NULL) {
+        return sim_fail(error, "expected pose,seconds,hand|ear|swing|pocket");
+    }
+    if (!sim_text_number(time, "seconds", 0.0, 1e6, &change.t_s, error) ||
+        !sim_settings_set(&named, "phone.pose", name, error)) {
+        return false;
+    }
+    change.pose = named.phone.pose;
+    return sim_list_add(&scenario->changes, &change) || sim_fail(error, "out of memory");
 }
 
 /* The name of a file in the scenario's own folder. */
@@ -163,6 +199,12 @@ static bool read_statement(sim_scenario_t *scenario, char *text, int line, sim_e
     if (strcmp(name, "goal") == 0) {
         return read_goal(scenario, rest, line, error);
     }
+    if (strcmp(name, "points") == 0) {
+        return read_points(scenario, rest, error);
+    }
+    if (strcmp(name, "pose") == 0) {
+        return read_pose(scenario, rest, line, error);
+    }
     return read_order(scenario, name, rest, line, error);
 }
 
@@ -183,6 +225,8 @@ bool sim_scenario_read(FILE *stream, sim_scenario_t *scenario, sim_error_t *erro
     sim_scenario_t empty = {.settings = sim_settings_defaults,
                             .orders = sim_list(sizeof(sim_order_t)),
                             .goals = sim_list(sizeof(sim_goal_t)),
+                            .lines = sim_list(sizeof(sim_line_t)),
+                            .changes = sim_list(sizeof(sim_pose_change_t)),
                             .plan = sim_plan_empty(),
                             .aps = sim_list(sizeof(sim_ap_t))};
     *scenario = empty;
@@ -275,6 +319,8 @@ void sim_scenario_free(sim_scenario_t *scenario)
 {
     sim_list_free(&scenario->orders);
     sim_list_free(&scenario->goals);
+    sim_list_free(&scenario->lines);
+    sim_list_free(&scenario->changes);
     sim_plan_free(&scenario->plan);
     sim_list_free(&scenario->aps);
 }

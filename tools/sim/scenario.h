@@ -47,12 +47,26 @@ typedef struct {
     int line;
 } sim_goal_t;
 
+/** A line of reference points of a survey. */
+typedef struct {
+    sim_point_t from, to;
+} sim_line_t;
+
+/** From then on the phone is carried another way. */
+typedef struct {
+    double t_s;
+    int32_t pose; /**< SIM_POSE_* */
+    int line;
+} sim_pose_change_t;
+
 enum { SIM_FILE_BYTES = 128 };
 
 typedef struct {
     sim_settings_t settings;
-    sim_list_t orders; /**< of sim_order_t; the first is the start */
-    sim_list_t goals;  /**< of sim_goal_t; none: errands lead anywhere */
+    sim_list_t orders;  /**< of sim_order_t; the first is the start */
+    sim_list_t goals;   /**< of sim_goal_t; none: errands lead anywhere */
+    sim_list_t lines;   /**< of sim_line_t; none: surveys go over a grid */
+    sim_list_t changes; /**< of sim_pose_change_t */
     char plan_file[SIM_FILE_BYTES], aps_file[SIM_FILE_BYTES]; /**< empty: none is named */
     sim_plan_t plan;                                          /**< empty until loaded */
     sim_list_t aps; /**< of sim_ap_t; empty until loaded */

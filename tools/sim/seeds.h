@@ -23,7 +23,16 @@ typedef enum {
     SIM_SEED_RADIO_SHADOW,
     SIM_SEED_RADIO_RECEIVER,
     SIM_SEED_RADIO_SCANS,
-    SIM_SEED_RADIO_NOISE
+    SIM_SEED_RADIO_NOISE,
+    SIM_SEED_PERSON,
+    SIM_SEED_TORSO,
+    SIM_SEED_HOLD,
+    SIM_SEED_FIDGETS,
+    SIM_SEED_CHANGES,
+    SIM_SEED_STEEL,
+    SIM_SEED_MAGNET_UNIT,
+    SIM_SEED_MAGNET_NOISE,
+    SIM_SEED_RADIO_CROWD
 } sim_seed_stream_t;
 
 static inline void sim_seed(insole_rng_t *rng, uint64_t seed, sim_seed_stream_t stream)

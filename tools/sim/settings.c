@@ -17,6 +17,12 @@
 #define MOUNT_ROW(...)                                                                             \
     ROW("mount", offsetof(sim_settings_t, mount), sim_mount_settings_t, __VA_ARGS__)
 #define IMU_ROW(...) ROW("imu", offsetof(sim_settings_t, imu), sim_imu_settings_t, __VA_ARGS__)
+#define PERSON_ROW(...)                                                                            \
+    ROW("person", offsetof(sim_settings_t, person), sim_person_settings_t, __VA_ARGS__)
+#define PHONE_ROW(...)                                                                             \
+    ROW("phone", offsetof(sim_settings_t, phone), sim_phone_settings_t, __VA_ARGS__)
+#define MAGNET_ROW(...)                                                                            \
+    ROW("magnet", offsetof(sim_settings_t, magnet), sim_magnet_settings_t, __VA_ARGS__)
 #define RADIO_ROW(...)                                                                             \
     ROW("radio", offsetof(sim_settings_t, radio), sim_radio_settings_t, __VA_ARGS__)
 #define ERRANDS_ROW(...)                                                                           \
@@ -26,8 +32,9 @@
 #define LOG_ROW(...) ROW("log", offsetof(sim_settings_t, log), sim_log_settings_t, __VA_ARGS__)
 
 const sim_settings_t sim_settings_defaults = {
-    {SIM_WALK_KEYS(DEFAULT)},   {SIM_GAIT_KEYS(DEFAULT)},  {SIM_MOUNT_KEYS(DEFAULT)},
-    {SIM_IMU_KEYS(DEFAULT)},    {SIM_RADIO_KEYS(DEFAULT)}, {SIM_ERRANDS_KEYS(DEFAULT)},
+    {SIM_WALK_KEYS(DEFAULT)},   {SIM_GAIT_KEYS(DEFAULT)},   {SIM_MOUNT_KEYS(DEFAULT)},
+    {SIM_IMU_KEYS(DEFAULT)},    {SIM_PERSON_KEYS(DEFAULT)}, {SIM_PHONE_KEYS(DEFAULT)},
+    {SIM_MAGNET_KEYS(DEFAULT)}, {SIM_RADIO_KEYS(DEFAULT)},  {SIM_ERRANDS_KEYS(DEFAULT)},
     {SIM_SURVEY_KEYS(DEFAULT)}, {SIM_LOG_KEYS(DEFAULT)}};
 
 /* clang-format off */
@@ -36,6 +43,9 @@ static const sim_key_t keys[] = {
     SIM_GAIT_KEYS(GAIT_ROW)
     SIM_MOUNT_KEYS(MOUNT_ROW)
     SIM_IMU_KEYS(IMU_ROW)
+    SIM_PERSON_KEYS(PERSON_ROW)
+    SIM_PHONE_KEYS(PHONE_ROW)
+    SIM_MAGNET_KEYS(MAGNET_ROW)
     SIM_RADIO_KEYS(RADIO_ROW)
     SIM_ERRANDS_KEYS(ERRANDS_ROW)
     SIM_SURVEY_KEYS(SURVEY_ROW)

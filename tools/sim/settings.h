@@ -124,6 +124,74 @@
     KEY(REAL, dropouts_hz, 0.0, 0.0, 10.0, "1/s", "how often samples get lost; 0 = never")         \
     KEY(REAL, dropout_s, 0.02, 0.0, 10.0, "s", "mean duration of such a gap")
 
+/** Who walks with the phone, and how the trunk moves over the feet. Drawn once per seed. */
+#define SIM_PERSON_KEYS(KEY)                                                                       \
+    KEY(REAL, leg_m, 0.9, 0.6, 1.2, "m", "height of the hips over the soles")                      \
+    KEY(REAL, leg_spread, 0.05, 0.0, 0.2, "1",                                                     \
+        "variation from person to person, 1-sigma, relative; steps grow with the leg")             \
+    KEY(REAL, step_spread, 0.08, 0.0, 0.2, "1",                                                    \
+        "variation of step length beside that of the leg, 1-sigma, relative")                      \
+    KEY(REAL, bounce, 0.6, 0.0, 1.5, "1",                                                          \
+        "share that knees and ankles leave of the rise and fall over stiff legs")                  \
+    KEY(REAL, bounce_spread, 0.15, 0.0, 0.4, "1", "variation of that, 1-sigma, relative")          \
+    KEY(REAL, surge, 0.5, 0.0, 1.0, "1",                                                           \
+        "share of the energy of rise and fall that comes from the speed ahead")                    \
+    KEY(REAL, handover, 0.45, 0.1, 0.5, "1",                                                       \
+        "share of a step before and after a strike in which the weight changes feet")              \
+    KEY(REAL, sway_m, 0.018, 0.0, 0.1, "m", "shift of the trunk over the foot that carries it")    \
+    KEY(REAL, lean_rad, 0.02, 0.0, 0.2, "rad", "sideways lean of the trunk with it")               \
+    KEY(REAL, nod_rad, 0.012, 0.0, 0.2, "rad", "pitch of the trunk within a step")                 \
+    KEY(REAL, twist_rad, 0.05, 0.0, 0.3, "rad", "turn of the shoulders against the legs")          \
+    KEY(REAL, strike_mps2, 5.0, 0.0, 50.0, "m/s^2", "ringing of the trunk after heel strike")      \
+    KEY(REAL, strike_hz, 7.0, 3.0, 50.0, "Hz", "its frequency; its double rings as well")          \
+    KEY(REAL, strike_decay_s, 0.05, 0.005, 0.1, "s", "its time constant")                          \
+    KEY(REAL, spread, 0.15, 0.0, 0.3, "1", "variation from step to step, 1-sigma, relative")
+
+/** The phone, how it is carried and how it is held there. Axes of the phone: x to the right, y to
+ *  the top edge, z out of the screen. */
+#define SIM_PHONE_KEYS(KEY)                                                                        \
+    KEY(REAL, rate_hz, 50.0, 50.0, 1000.0, "Hz", "samples per second, in place of imu.rate_hz")    \
+    KEY(CHOICE, pose, 0, 0, 3, "hand|ear|swing|pocket", "how it is carried at the start")          \
+    KEY(CHOICE, side, 0, 0, 1, "right|left", "arm or leg that carries it")                         \
+    KEY(CHOICE, mounting, 0, 0, 2, "told|pocket|random",                                           \
+        "the turn below; or any turn, drawn by seed, in a pocket or everywhere")                   \
+    KEY(REAL, roll_rad, 0.0, -3.2, 3.2, "rad", "further turn of the phone about its x axis")       \
+    KEY(REAL, pitch_rad, 0.0, -1.6, 1.6, "rad", "then about y")                                    \
+    KEY(REAL, yaw_rad, 0.0, -3.2, 3.2, "rad", "then about z")                                      \
+    KEY(REAL, tilt_rad, 0.6, -0.5, 1.5, "rad", "in the hand: top edge raised by this")             \
+    KEY(REAL, hold_rad, 0.08, 0.0, 1.0, "rad", "error of the hold, 1-sigma of each angle")         \
+    KEY(REAL, wander_rad, 0.04, 0.0, 0.5, "rad", "slow changes of the hold, rms")                  \
+    KEY(REAL, tremor_rad, 0.002, 0.0, 0.1, "rad", "trembling, rms; also of a standing walker")     \
+    KEY(REAL, rock, 0.7, 0.0, 3.0, "1",                                                            \
+        "in the hand: how far the forearm swings along with the bounce")                           \
+    KEY(REAL, rock_spread, 0.3, 0.0, 0.6, "1",                                                     \
+        "variation of that from person to person, 1-sigma, relative")                              \
+    KEY(REAL, rock_lag_s, 0.03, 0.0, 0.2, "s", "by which the forearm is late")                     \
+    KEY(REAL, swing_rad, 0.32, 0.0, 1.0, "rad", "swing of the arm to each side, step of 0.7 m")    \
+    KEY(REAL, lift_rad, 0.25, 0.0, 1.0, "rad", "how far the thigh is lifted in its swing")         \
+    KEY(REAL, thigh_mps2, 38.0, 0.0, 100.0, "m/s^2",                                               \
+        "ringing in a pocket after the strike of that foot")                                       \
+    KEY(REAL, fidgets_hz, 0.12, 0.0, 2.0, "1/s", "how often a standing walker turns it about")     \
+    KEY(REAL, fidget_rad, 0.4, 0.0, 1.0, "rad", "how far, 1-sigma of each angle")                  \
+    KEY(REAL, change_every_s, 0.0, 0.0, 36000.0, "s",                                              \
+        "mean time from one way to carry it to the next, drawn by seed; 0 = never")                \
+    KEY(REAL, change_s, 1.0, 0.3, 5.0, "s", "duration of such a change")
+
+/** The phone's magnetometer and the field it is in. */
+#define SIM_MAGNET_KEYS(KEY)                                                                       \
+    KEY(CHOICE, model, 0, 0, 2, "full|ideal|off",                                                  \
+        "which errors the magnetometer has; the field is the same")                                \
+    KEY(REAL, rate_hz, 50.0, 1.0, 200.0, "Hz", "readings per second")                              \
+    KEY(REAL, field_ut, 46.0, 0.0, 80.0, "uT", "strength of the earth's field")                    \
+    KEY(REAL, dip_rad, 0.9, -1.58, 1.58, "rad", "by which it points down")                         \
+    KEY(REAL, declination_rad, 0.05, -3.2, 3.2, "rad", "by which it points east of y")             \
+    KEY(REAL, steel_m2, 15.0, 0.5, 10000.0, "m^2", "floor per piece of steel in the building")     \
+    KEY(REAL, steel_am2, 60.0, 0.0, 2000.0, "A m^2", "moment of a piece, 1-sigma of each axis")    \
+    KEY(REAL, hard_ut, 3.0, 0.0, 100.0, "uT", "offset that calibration left, 1-sigma")             \
+    KEY(REAL, soft, 0.02, 0.0, 0.2, "1", "error of scale and axes, 1-sigma of each term")          \
+    KEY(REAL, noise_ut, 0.6, 0.0, 10.0, "uT", "noise of a reading, 1-sigma")                       \
+    KEY(REAL, step_ut, 0.15, 0.0, 10.0, "uT", "smallest step of a reading; 0 = off")
+
 /** The radio that hears access points, and the building it hears them in. */
 #define SIM_RADIO_KEYS(KEY)                                                                        \
     KEY(CHOICE, model, 0, 0, 2, "full|matched|off",                                                \
@@ -131,6 +199,8 @@
     KEY(REAL, building, 1.0, 0.0, 1e9, "1",                                                        \
         "number of the building; 0 = another one for each seed")                                   \
     KEY(REAL, period_s, 1.0, 0.05, 3600.0, "s", "time from scan to scan")                          \
+    KEY(REAL, readings, 1.0, 1.0, 20.0, "1",                                                       \
+        "so many readings, evenly over the period, are averaged in a scan; whole")                 \
     KEY(REAL, jitter_s, 0.05, 0.0, 1.0, "s", "variation of the times of the scans, 1-sigma")       \
     KEY(REAL, missed_share, 0.02, 0.0, 1.0, "1", "scans that never come")                          \
     KEY(REAL, late_share, 0.05, 0.0, 1.0, "1", "scans that reach the log late")                    \
@@ -157,6 +227,10 @@
     KEY(REAL, rice_db, 7.0, -20.0, 60.0, "dB",                                                     \
         "fast fading: power of the direct path over the scattered")                                \
     KEY(REAL, body_db, 6.8, 0.0, 40.0, "dB", "loss straight behind the walker; 0 ahead")           \
+    KEY(REAL, crowd_db, 0.0, 0.0, 30.0, "dB",                                                      \
+        "loss by people who walk in between: nobody half of the time, else half a normal "         \
+        "distribution of this 1-sigma")                                                            \
+    KEY(REAL, crowd_s, 2.0, 0.05, 1000.0, "s", "correlation time of that")                         \
     KEY(REAL, offset_db, 2.0, 0.0, 20.0, "dB", "error of the receiver, 1-sigma")                   \
     KEY(REAL, step_db, 1.0, 0.0, 10.0, "dB", "smallest step of a reading; 0 = off")                \
     KEY(REAL, floor_dbm, -92.0, -200.0, 0.0, "dBm",                                                \
@@ -183,6 +257,7 @@
 
 /** What is written. */
 #define SIM_LOG_KEYS(KEY)                                                                          \
+    KEY(CHOICE, sensor, 0, 0, 1, "shoe|phone", "whose samples the log holds")                      \
     KEY(CHOICE, start, 1, 0, 1, "none|known", "whether the log tells where the walk begins")       \
     KEY(REAL, start_sigma_m, 0.0, 0.0, 100.0, "m", "error of that, 1-sigma of each coordinate")    \
     KEY(REAL, start_sigma_rad, 0.0, 0.0, 3.0, "rad", "error of its heading, 1-sigma")              \
@@ -207,6 +282,15 @@ typedef struct {
     SIM_IMU_KEYS(SIM_KEY_MEMBER)
 } sim_imu_settings_t;
 typedef struct {
+    SIM_PERSON_KEYS(SIM_KEY_MEMBER)
+} sim_person_settings_t;
+typedef struct {
+    SIM_PHONE_KEYS(SIM_KEY_MEMBER)
+} sim_phone_settings_t;
+typedef struct {
+    SIM_MAGNET_KEYS(SIM_KEY_MEMBER)
+} sim_magnet_settings_t;
+typedef struct {
     SIM_RADIO_KEYS(SIM_KEY_MEMBER)
 } sim_radio_settings_t;
 typedef struct {
@@ -223,6 +307,10 @@ enum { SIM_FOOT_RIGHT, SIM_FOOT_LEFT };
 enum { SIM_MODEL_FULL, SIM_MODEL_MATCHED, SIM_MODEL_IDEAL };
 enum { SIM_SAMPLING_AVERAGE, SIM_SAMPLING_POINT };
 enum { SIM_CLIP_HARD, SIM_CLIP_SOFT };
+enum { SIM_SENSOR_SHOE, SIM_SENSOR_PHONE };
+enum { SIM_POSE_HAND, SIM_POSE_EAR, SIM_POSE_SWING, SIM_POSE_POCKET, SIM_POSES };
+enum { SIM_MOUNTING_TOLD, SIM_MOUNTING_POCKET, SIM_MOUNTING_RANDOM };
+enum { SIM_MAGNET_FULL, SIM_MAGNET_IDEAL, SIM_MAGNET_OFF };
 enum { SIM_IMU_NONE, SIM_IMU_ALL };
 enum { SIM_TRUTH_OF_SENSOR, SIM_TRUTH_OF_BODY };
 enum { SIM_START_NONE, SIM_START_KNOWN };
@@ -236,6 +324,9 @@ typedef struct {
     sim_gait_settings_t gait;
     sim_mount_settings_t mount;
     sim_imu_settings_t imu;
+    sim_person_settings_t person;
+    sim_phone_settings_t phone;
+    sim_magnet_settings_t magnet;
     sim_radio_settings_t radio;
     sim_errands_settings_t errands;
     sim_survey_settings_t survey;

@@ -10,6 +10,8 @@
 #ifndef INSOLE_SIM_SMOOTH_H
 #define INSOLE_SIM_SMOOTH_H
 
+#include <math.h>
+
 /** Integral from 0 to u of 3 u^2 - 2 u^3, the smooth rise of a rate; 1/2 at u = 1. */
 static inline double sim_ease_rise(double u)
 {
@@ -38,6 +40,14 @@ static inline double sim_hump(double u)
 {
     double v = u <= 0.0 || u >= 1.0 ? 0.0 : 4.0 * u * (1.0 - u);
     return v * v * v;
+}
+
+/** What rings from t = 0 on: a wave and its double that together set in smoothly (as t^4), and die
+ *  away; but for the decay the peak of its second derivative is about wave^2. */
+static inline double sim_ringing(double wave_radps, double decay_s, double t_s)
+{
+    double swing = 1.0 - cos(wave_radps * t_s);
+    return exp(-t_s / decay_s) * swing * swing / 3.0;
 }
 
 /** Position, velocity and acceleration along one axis. */

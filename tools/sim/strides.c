@@ -109,8 +109,10 @@ static sim_shock_t make_shock(maker_t *m, const sim_stride_t *stride, const styl
     double wave = 2.0 * SIM_PI * m->settings->shock_hz * uniform(m, 0.85, 1.15);
     double scale = scale_of(stride), size = scale * scale * varied(m) / wave;
     double speed = scale * varied(m) * style->settle_mps;
-    sim_vec3_t shake = along_foot(&stride->to, uniform(m, -0.8, -0.2), uniform(m, -0.3, 0.3),
-                                  uniform(m, 0.7, 1.0));
+    /* one draw a statement: the order of arguments is the compiler's */
+    double up = uniform(m, 0.7, 1.0), left = uniform(m, -0.3, 0.3);
+    double ahead = uniform(m, -0.8, -0.2);
+    sim_vec3_t shake = along_foot(&stride->to, ahead, left, up);
     sim_shock_t shock = {.settle_mps = along_foot(&stride->to, 0.8 * speed,
                                                   uniform(m, -0.2, 0.2) * speed, -0.25 * speed),
                          .settle_s = m->settings->settle_s,

@@ -80,8 +80,7 @@ static bool write_grid(FILE *stream, double spacing_m, const sim_walk_t *walk,
                        const sim_scenario_t *scenario, const sim_list_t *heard)
 {
     table_t table = {.aps = scenario->aps.count};
-    if (!sim_grid(&scenario->plan, spacing_m, scenario->settings.errands.clearance_m,
-                  &table.points)) {
+    if (!sim_reference_points(scenario, spacing_m, &table.points)) {
         return false;
     }
     table.cells = calloc(table.points.count * table.aps + 1, sizeof *table.cells);

@@ -14,6 +14,8 @@ struct sim_walk {
     sim_gait_t gait;
     sim_vec3_t lever_m;  /* of the sensor, foot axes */
     sim_mat3_t mounting; /* foot from sensor */
+    bool has_phone;
+    sim_phone_t phone; /* if so */
     sim_motion_stream_t stream;
     sim_imu_t imu;
     int32_t sampling;
@@ -29,10 +31,15 @@ static sim_pose_t sensor_pose(const void *state, double t_s)
     return sensor;
 }
 
+static sim_pose_t phone_pose(const void *state, double t_s)
+{
+    return sim_phone_pose(state, t_s);
+}
+
 sim_body_t sim_walk_body(const sim_walk_t *walk)
 {
-    sim_body_t body = {sensor_pose, walk};
-    return body;
+    sim_body_t shoe = {sensor_pose, walk}, phone = {phone_pose, &walk->phone};
+    return walk->has_phone ? phone : shoe;
 }
 
 static sim_place_t start_place(const sim_scenario_t *scenario)
@@ -55,11 +62,21 @@ static bool plan_route(sim_route_t *route, const sim_scenario_t *scenario, uint6
     return done;
 }
 
-/* Route, steps, strides: each is made from the one before. */
-static bool plan(sim_walk_t *walk, const sim_scenario_t *scenario, uint64_t seed,
-                 sim_error_t *error)
+/* Who carries a phone is somebody: other people take other steps. */
+static sim_settings_t settings_of(const sim_scenario_t *scenario, uint64_t seed)
 {
-    const sim_settings_t *settings = &scenario->settings;
+    sim_settings_t settings = scenario->settings;
+    if (settings.log.sensor == SIM_SENSOR_PHONE) {
+        settings.walk.step_length_m *= sim_person(&settings.person, seed).steps;
+        settings.imu.rate_hz = settings.phone.rate_hz;
+    }
+    return settings;
+}
+
+/* Route, steps, strides: each is made from the one before. */
+static bool plan(sim_walk_t *walk, const sim_scenario_t *scenario, const sim_settings_t *settings,
+                 uint64_t seed, sim_error_t *error)
+{
     if (!plan_route(&walk->route, scenario, seed, error)) {
         return false;
     }
@@ -68,25 +85,34 @@ static bool plan(sim_walk_t *walk, const sim_scenario_t *scenario, uint64_t seed
            sim_strides_plan(&walk->steps, &settings->gait, seed, &walk->gait, error);
 }
 
+static bool carry_phone(sim_walk_t *walk, const sim_scenario_t *scenario, uint64_t seed,
+                        sim_error_t *error)
+{
+    walk->has_phone = scenario->settings.log.sensor == SIM_SENSOR_PHONE &&
+                      sim_phone_plan(scenario, &walk->steps, seed, &walk->phone, error);
+    return walk->has_phone || scenario->settings.log.sensor == SIM_SENSOR_SHOE;
+}
+
 sim_walk_t *sim_walk_open(const sim_scenario_t *scenario, uint64_t seed, sim_error_t *error)
 {
-    const sim_settings_t *settings = &scenario->settings;
-    const sim_mount_settings_t *mount = &settings->mount;
+    sim_settings_t settings = settings_of(scenario, seed);
+    const sim_mount_settings_t *mount = &settings.mount;
     sim_walk_t *walk = calloc(1, sizeof *walk);
     if (walk == NULL) {
         sim_fail(error, "out of memory");
         return NULL;
     }
-    if (!plan(walk, scenario, seed, error)) {
+    if (!plan(walk, scenario, &settings, seed, error) ||
+        !carry_phone(walk, scenario, seed, error)) {
         sim_walk_close(walk);
         return NULL;
     }
     walk->lever_m = sim_vec3(mount->x_m, mount->y_m, mount->z_m);
     walk->mounting = sim_mat3_from_euler(mount->roll_rad, mount->pitch_rad, mount->yaw_rad);
-    walk->sampling = settings->imu.sampling;
+    walk->sampling = settings.imu.sampling;
     walk->stream =
-        sim_motion_stream(sim_walk_body(walk), settings->imu.rate_hz, settings->walk.gravity_mps2);
-    sim_imu_init(&walk->imu, &settings->imu, seed);
+        sim_motion_stream(sim_walk_body(walk), settings.imu.rate_hz, settings.walk.gravity_mps2);
+    sim_imu_init(&walk->imu, &settings.imu, seed);
     return walk;
 }
 
@@ -130,6 +156,11 @@ const sim_steps_t *sim_walk_steps(const sim_walk_t *walk)
     return &walk->steps;
 }
 
+const sim_phone_t *sim_walk_phone(const sim_walk_t *walk)
+{
+    return walk->has_phone ? &walk->phone : NULL;
+}
+
 bool sim_walk_start_heading(const sim_walk_t *walk, double *heading_rad)
 {
     const sim_list_t *strides = &walk->gait.strides;
@@ -150,6 +181,9 @@ void sim_walk_close(sim_walk_t *walk)
         sim_route_free(&walk->route);
         sim_steps_free(&walk->steps);
         sim_strides_free(&walk->gait);
+        if (walk->has_phone) {
+            sim_phone_free(&walk->phone);
+        }
         free(walk);
     }
 }

@@ -1,4 +1,4 @@
-/** @file walk.h  A simulated walk with a sensor on the foot, sample by sample.
+/** @file walk.h  A simulated walk with a sensor on the foot or in a phone, sample by sample.
  *
  *      sim_walk_t *walk = sim_walk_open(&scenario, seed, &error);       NULL: error tells why
  *      sim_sample_t sample;
@@ -17,6 +17,7 @@
 #include "sim/gait.h"
 #include "sim/imu_model.h"
 #include "sim/motion.h"
+#include "sim/phone.h"
 #include "sim/scenario.h"
 
 typedef struct {
@@ -40,6 +41,9 @@ double sim_walk_distance(const sim_walk_t *walk);      /**< m, along the path, l
 const sim_imu_t *sim_walk_imu(const sim_walk_t *walk); /**< the sensor with its errors */
 const sim_gait_t *sim_walk_gait(const sim_walk_t *walk);
 const sim_steps_t *sim_walk_steps(const sim_walk_t *walk);
+
+/** NULL when the sensor is the shoe's. */
+const sim_phone_t *sim_walk_phone(const sim_walk_t *walk);
 
 /** The sensor as a body, for the motion at any time. */
 sim_body_t sim_walk_body(const sim_walk_t *walk);

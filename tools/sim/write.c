@@ -8,6 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "sim/carried.h"
+#include "sim/magnet.h"
 #include "sim/scans.h"
 #include "sim/site.h"
 #include "sim/survey.h"
@@ -21,6 +23,9 @@ typedef struct {
     const sim_list_t *aps;
     sim_list_t heard; /* of sim_heard_t */
     size_t written;   /* of those */
+    bool has_magnet;
+    sim_magnet_t magnet; /* if so */
+    long mag_rows;
 } output_t;
 
 static bool open_output(output_t *output, const char *folder, sim_error_t *error)
@@ -47,13 +52,23 @@ static double told(insole_rng_t *rng, double value, double sigma)
     return value + sigma * (double)insole_rng_normal(rng);
 }
 
+/* A shoe starts where it stands, a phone where its truth does. */
+static sim_vec3_t start_place(const sim_walk_t *walk, const sim_log_settings_t *settings)
+{
+    sim_body_t body = sim_walk_body(walk);
+    if (sim_walk_phone(walk) == NULL || settings->truth == SIM_TRUTH_OF_SENSOR) {
+        return body.pose(body.state, 0.0).position_m;
+    }
+    sim_place_t trunk = sim_trunk_at(sim_walk_steps(walk), 0.0);
+    return sim_vec3(trunk.x_m, trunk.y_m, trunk.z_m);
+}
+
 static void write_start(FILE *log, const sim_walk_t *walk, const sim_log_settings_t *settings,
                         uint64_t seed)
 {
     insole_rng_t rng;
     sim_seed(&rng, seed, SIM_SEED_LOG);
-    sim_body_t body = sim_walk_body(walk);
-    sim_vec3_t at = body.pose(body.state, 0.0).position_m;
+    sim_vec3_t at = start_place(walk, settings);
     double x = told(&rng, at.x, settings->start_sigma_m);
     double y = told(&rng, at.y, settings->start_sigma_m);
     double heading;
@@ -114,14 +129,37 @@ static void write_heard(output_t *output, double t_s)
     }
 }
 
+/* The readings of the magnetometer up to a time. */
+static void write_mag(output_t *output, const sim_walk_t *walk, double t_s)
+{
+    sim_body_t body = sim_walk_body(walk);
+    for (; output->has_magnet; output->mag_rows++) {
+        double due_s = (double)output->mag_rows / output->settings->magnet.rate_hz;
+        if (due_s > t_s + 1e-9) {
+            return;
+        }
+        sim_pose_t pose = body.pose(body.state, due_s);
+        sim_vec3_t m = sim_magnet_read(&output->magnet, &pose);
+        fprintf(output->log, "mag,%.6f,%.3f,%.3f,%.3f\n", due_s, m.x, m.y, m.z);
+    }
+}
+
+static void write_sensors(output_t *output, const sim_walk_t *walk, const sim_sample_t *sample)
+{
+    write_mag(output, walk, sample->truth.t_s);
+    if (sample->given) {
+        write_imu(output->log, &sample->imu);
+    }
+}
+
 static void write_samples(output_t *output, sim_walk_t *walk)
 {
     sim_sample_t sample;
     fputs("t,x,y,z\n", output->truth);
     while (sim_walk_next(walk, &sample)) {
         write_heard(output, sample.truth.t_s);
-        if (sample.given && output->settings->log.imu == SIM_IMU_ALL) {
-            write_imu(output->log, &sample.imu);
+        if (output->settings->log.imu == SIM_IMU_ALL) {
+            write_sensors(output, walk, &sample);
         }
         write_truth(output, walk, &sample);
     }
@@ -152,6 +190,15 @@ static bool write_files(output_t *output, sim_walk_t *walk, const sim_log_settin
     return close_output(output) || sim_fail(error, "%.300s cannot be written to", folder);
 }
 
+/* Phones alone have a magnetometer. */
+static bool open_magnet(output_t *output, const sim_walk_t *walk, const sim_scenario_t *scenario,
+                        uint64_t seed, sim_error_t *error)
+{
+    bool wanted = sim_walk_phone(walk) != NULL && scenario->settings.magnet.model != SIM_MAGNET_OFF;
+    output->has_magnet = wanted && sim_magnet_open(&output->magnet, scenario, seed, error);
+    return output->has_magnet || !wanted;
+}
+
 static bool write_walk(sim_walk_t *walk, const sim_scenario_t *scenario, const char *folder,
                        uint64_t seed, sim_report_t *report, sim_error_t *error)
 {
@@ -159,11 +206,19 @@ static bool write_walk(sim_walk_t *walk, const sim_scenario_t *scenario, const c
     if (!sim_scans_make(walk, scenario, seed, &output.heard, error)) {
         return false;
     }
+    if (!open_magnet(&output, walk, scenario, seed, error)) {
+        sim_list_free(&output.heard);
+        return false;
+    }
     bool done = write_files(&output, walk, &scenario->settings.log, folder, seed, error) &&
-                sim_survey_write(walk, scenario, &output.heard, folder, error);
+                sim_survey_write(walk, scenario, &output.heard, folder, error) &&
+                sim_carried_write(walk, folder, error);
     fill_report(report, walk);
     report->signals = (uint32_t)output.written;
     sim_list_free(&output.heard);
+    if (output.has_magnet) {
+        sim_magnet_close(&output.magnet);
+    }
     return done;
 }
 

@@ -1,9 +1,10 @@
 /** @file write.h  From a scenario file to the files of a simulated walk.
  *
  *  Writes into a folder, which is made if it is not there: `log.csv` with a `start` record, one
- *  `imu` record per sample and the `rss` records of the scans, in the order of time; `truth.csv`
- *  with the header `t,x,y,z`: the true position of the sensor; `plan.csv` and `aps.csv`, if the
- *  scenario names them; and `radiomap.csv`, if it has a survey.
+ *  `imu` record per sample, the `mag` records of a phone and the `rss` records of the scans, in the
+ *  order of time; `truth.csv` with the header `t,x,y,z`: the true position of the sensor;
+ * `plan.csv` and `aps.csv`, if the scenario names them; `radiomap.csv`, if it has a survey; and
+ * what scores a phone (carried.h).
  *
  *      char error[512];
  *      if (sim_write_scenario("maps/demo/scenario", "out", 1, &report, error, sizeof error) != 0)

@@ -13,6 +13,7 @@
 #ifndef INSOLE_FUSE_CLOUD_SOURCE_H
 #define INSOLE_FUSE_CLOUD_SOURCE_H
 
+#include "insole/base/sym2.h"
 #include "insole/fuse/particle_cloud.h"
 #include "insole/place/floor_plan.h"
 
@@ -30,6 +31,10 @@ typedef struct {
 
 /** The summary of a cloud whose particles are to have such a scatter of scale. */
 insole_cloud_source_t insole_cloud_source(const insole_cloud_fix_t *fix, insole_real_t sigma_scale);
+
+/** Moves it there, with this covariance of its place; offset and scale stay. */
+void insole_cloud_source_put(insole_cloud_source_t *source, insole_spot_t spot,
+                             insole_sym2_t cov_m2);
 
 /** The turn from ways in n to ways in m: the shorter the less its direction is known, so that the
  *  way it gives is the mean of all. */

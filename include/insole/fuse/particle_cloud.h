@@ -8,7 +8,7 @@
  *  the same to the bit however it was sliced. Nothing here needs a second array.
  *
  *      static insole_particle_t particles[500];
- *      insole_cloud_t cloud = {particles, 500, NULL, 0};
+ *      insole_cloud_t cloud = {particles, 500, NULL, 0, NULL};
  *      insole_cloud_sum_begin(&sum, &cloud, heaviest);
  *      while (insole_cloud_sum_work(&sum, &cloud, &budget)) budget = 100;
  *      insole_cloud_fix(&sum, &fix);
@@ -46,6 +46,7 @@ typedef struct {
     uint32_t count;
     insole_spot_t *past;   /**< `count` x `past_strides`: where each, or its ancestor, was */
     uint32_t past_strides; /**< 0: no past is kept */
+    insole_spot_t *bias;   /**< `count`: by which fixes of each err, radio_bias.h; NULL: none */
 } insole_cloud_t;
 
 /** The cloud in a few numbers. */
@@ -67,6 +68,8 @@ typedef struct {
     insole_real_t sigma_wander_rad; /**< of what stays in the offset */
     insole_real_t scale_memory;     /**< how much of a scale other than 1 stays */
     insole_real_t sigma_scale;      /**< of what is added to it */
+    insole_real_t apart_wander_rad; /**< the same two by normal numbers of their own, */
+    insole_real_t apart_scale;      /**< insole_cloud_wander() */
 } insole_cloud_stride_t;
 
 /** Weighted sums, relative to the heaviest particle. */
@@ -114,6 +117,17 @@ static inline insole_turn_t insole_cloud_direction(const insole_particle_t *part
                                                    insole_real_t heading_rad)
 {
     return insole_turn(heading_rad + particle->offset_rad);
+}
+
+/** Changes offset and scale of one particle before a stride, apart from how that scatters. */
+static inline void insole_cloud_wander(insole_particle_t *particle,
+                                       const insole_cloud_stride_t *stride, insole_rng_t *rng)
+{
+    insole_real_t of_offset, of_scale;
+    insole_rng_normals(rng, &of_offset, &of_scale);
+    particle->offset_rad =
+        insole_wrap_pi(particle->offset_rad + stride->apart_wander_rad * of_offset);
+    particle->scale += stride->apart_scale * of_scale;
 }
 
 /** Moves one particle by a stride, (32). Two normal numbers are drawn, one along and one across:

@@ -1,6 +1,8 @@
 /** @file particle_config.h  All settings of the particle filter.
  *
- *  Source  [TwoOrder] 3.2, 4.1: `insole_particle_filter_two_order`; ours: the defaults.
+ *  Source  [TwoOrder] 3.2, 4.1: `insole_particle_filter_two_order`; ours: the defaults, for a shoe,
+ *          and `insole_particle_filter_phone`, for the steps of a phone and fixes by fingerprints;
+ *          [PhoneEKF] 4.1: `insole_particle_filter_phone_plain`.
  *
  *      insole_particle_filter_config_t config = insole_particle_filter_defaults;
  *      config.walls = INSOLE_WALLS_OFF;
@@ -30,7 +32,7 @@ extern "C" {
     KEY(REAL, sigma_scale, 0.01, 0.0, 1.0, "", "1-sigma of the scale of strides; 0 = none")       \
     KEY(REAL, scale_memory, 0.99, 0.0, 1.0, "",                                                   \
         "share of a particle's scale that stays from stride to stride")                           \
-    KEY(CHOICE, walls, 2, 0, 2, "off|inside|crosses", "what a plan kills a particle for")         \
+    KEY(CHOICE, walls, 2, 0, 3, "off|inside|crosses|soft", "what a plan kills a particle for")    \
     KEY(REAL, resample_share, 0.5, 0.0, 1.0, "",                                                  \
         "resampled when the effective number is a smaller share of all; 0 = never")               \
     KEY(REAL, spread_share, 0.3, 0.0, 1.0, "",                                                    \
@@ -51,7 +53,23 @@ extern "C" {
     KEY(REAL, search_sigma_m, 1.5, 0.01, 100.0, "m", "1-sigma of a cloud to which it says half")  \
     KEY(REAL, search_offset_rad, 0.7, 0.01, 10.0, "rad", "the same for the offset")               \
     KEY(REAL, wide_offset_rad, 0.6, 0.0, 3.1, "rad",                                              \
-        "with a larger 1-sigma of the offset the direction counts as unknown to the radio")
+        "with a larger 1-sigma of the offset the direction counts as unknown to the radio")       \
+    KEY(REAL, length_share, 0.0, 0.0, 10.0, "",                                                   \
+        "1-sigma of a stride's length as a share of it, beside sigma_length_m")                   \
+    KEY(REAL, sigma_heading_rad, 0.0, 0.0, 3.0, "rad",                                            \
+        "1-sigma of a stride's direction, beside turn_share")                                     \
+    KEY(CHOICE, scatter, 0, 0, 1, "shared|apart",                                                 \
+        "scale and offset change with the errors of length and direction, or by themselves")      \
+    KEY(REAL, soft_depth_m, 1.0, 0.0, 100.0, "m",                                                 \
+        "soft walls: so deep in what is not walkable a place counts as closed")                   \
+    KEY(REAL, soft_weight, 0.2, 0.001, 1.0, "", "soft walls: weight of a stride that ends there") \
+    KEY(REAL, soft_least, 0.02, 0.0, 1.0, "",                                                     \
+        "soft walls: with a smaller share of particles elsewhere they do not count")              \
+    KEY(REAL, bias_sigma_m, 3.5, 0.0, 1000.0, "m",                                                \
+        "1-sigma of the error that fixes by fingerprints share for a while; 0 = none")            \
+    KEY(REAL, bias_s, 15.0, 0.1, 1.0e6, "s", "time in which that error is forgotten")             \
+    KEY(REAL, fix_floor, 0.01, 0.0, 1.0, "", "least weight by a fix, beside 1 for the best place") \
+    KEY(REAL, fix_ahead_m, 1.0, -10.0, 10.0, "m", "a fix lies so far ahead of the walker")
 /* clang-format on */
 
 typedef struct {
@@ -70,14 +88,51 @@ extern const insole_particle_filter_config_t insole_particle_filter_defaults;
         .search_power = INSOLE_R(1.0), .blind_power = INSOLE_R(1.0),                               \
         .blind_search_power = INSOLE_R(1.0), .search_sigma_m = INSOLE_R(1.0),                      \
         .search_offset_rad = INSOLE_R(1.0), .resample_share = INSOLE_R(0.5),                       \
-        .recover_sigma_m = INSOLE_R(0.5), .field = {                                               \
+        .recover_sigma_m = INSOLE_R(0.5), .soft_weight = INSOLE_R(1.0), .bias_s = INSOLE_R(1.0),   \
+        .field = {                                                                                 \
             INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_DEFAULT)                                           \
         }                                                                                          \
     }
 extern const insole_particle_filter_config_t insole_particle_filter_two_order;
 
+enum { INSOLE_SCATTER_SHARED = 0, INSOLE_SCATTER_APART = 1 };
+
+/** What both settings for a phone have in common. */
+#define INSOLE_PARTICLE_FILTER_STEPS                                                               \
+    .length_share = INSOLE_R(0.3), .sigma_heading_rad = INSOLE_R(0.07),                            \
+    .scatter = INSOLE_SCATTER_APART, .resample_share = INSOLE_R(0.5),                              \
+    .search_power = INSOLE_R(1.0), .blind_power = INSOLE_R(1.0),                                   \
+    .blind_search_power = INSOLE_R(1.0), .search_sigma_m = INSOLE_R(1.0),                          \
+    .search_offset_rad = INSOLE_R(1.0), .recover_sigma_m = INSOLE_R(0.5),                          \
+    .recover_offset_rad = INSOLE_R(0.09), .field = {INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_DEFAULT)}
+
+/** Steps of a phone: the direction wanders by 2.5 degrees a step, the scale by 0.005 about 1 +-
+ *  0.12; fixes err together, and a plan may lack doors. */
+#define INSOLE_PARTICLE_FILTER_PHONE                                                               \
+    {                                                                                              \
+        .sigma_wander_rad = INSOLE_R(0.0436), .sigma_scale = INSOLE_R(0.12),                       \
+        .scale_memory = INSOLE_R(0.99913), .walls = INSOLE_WALLS_SOFT,                             \
+        .soft_depth_m = INSOLE_R(1.0), .soft_weight = INSOLE_R(0.2), .soft_least = INSOLE_R(0.02), \
+        .bias_sigma_m = INSOLE_R(3.5), .bias_s = INSOLE_R(15.0), .fix_floor = INSOLE_R(0.01),      \
+        .fix_ahead_m = INSOLE_R(1.0), INSOLE_PARTICLE_FILTER_STEPS                                 \
+    }
+extern const insole_particle_filter_config_t insole_particle_filter_phone;
+
+/** The paper's rivals: steps as told, no offset that wanders, no scale, no plan, fixes weigh by
+ *  their covariance alone. */
+#define INSOLE_PARTICLE_FILTER_PHONE_PLAIN                                                         \
+    {                                                                                              \
+        .scale_memory = INSOLE_R(1.0), .walls = INSOLE_WALLS_OFF, .soft_weight = INSOLE_R(1.0),    \
+        .bias_s = INSOLE_R(1.0), INSOLE_PARTICLE_FILTER_STEPS                                      \
+    }
+extern const insole_particle_filter_config_t insole_particle_filter_phone_plain;
+
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
 insole_status_t insole_particle_config_check(const insole_particle_filter_config_t *config);
+
+/** How particles walk a stride that was told. */
+insole_cloud_stride_t insole_particle_config_stride(const insole_particle_filter_config_t *config,
+                                                    const insole_evidence_t *news);
 
 /** How much a scan says to such a cloud, in powers of its likelihood: what scans say in a row is
  *  much the same, the first ones say something new. Where walls are not known they err together

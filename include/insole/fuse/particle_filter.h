@@ -4,13 +4,15 @@
  *  Frames  n: level, as the inertial filter left it.  m: map. The angle between the two is a part
  *          of what is estimated: each particle has an offset of its own.
  *
- *  Strides move the particles; walls, positions, ranges and scans weigh them. With the settings
- *  `insole_particle_filter_two_order` it is the paper's second stage as printed. With the defaults
- *  a particle's offset wanders, its scale is personal, and the whole stride is tested for walls.
+ *  Strides move the particles; walls, positions, ranges, scans and fixes by fingerprints weigh
+ * them. With the settings `insole_particle_filter_phone` strides are the steps of a phone
+ * (step_cloud.h). With the settings `insole_particle_filter_two_order` it is the paper's second
+ * stage as printed. With the defaults a particle's offset wanders, its scale is personal, and the
+ * whole stride is tested for walls.
  *
  *      static insole_particle_t particles[500];
  *      static insole_particle_filter_t filter;
- *      insole_cloud_t cloud = {particles, 500, NULL, 0};
+ *      insole_cloud_t cloud = {particles, 500, NULL, 0, NULL};
  *      insole_particle_filter_init(&filter, &insole_particle_filter_defaults, seed);
  *      insole_particle_filter_start(&filter, &cloud, &start);
  *      while (insole_particle_filter_work(&filter, &cloud, &building, 50)) {}
@@ -32,20 +34,14 @@
 
 #include "insole/fuse/cloud_source.h"
 #include "insole/fuse/particle_config.h"
+#include "insole/fuse/particle_start.h"
+#include "insole/fuse/step_weighing.h"
 #include "insole/fuse/weighing.h"
 #include "insole/place/rss_field.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/** What is known at the start. */
-typedef struct {
-    insole_real_t x_m, y_m;
-    insole_real_t sigma_m;          /**< of each coordinate, >= 0 */
-    insole_real_t offset_rad;       /**< from directions in n to directions in m */
-    insole_real_t sigma_offset_rad; /**< >= 0; pi or more: not known */
-} insole_particle_start_t;
 
 typedef struct {
     uint32_t strides;
@@ -60,8 +56,10 @@ typedef enum {
     INSOLE_PARTICLES_IDLE = 0,
     INSOLE_PARTICLES_DRAW,
     INSOLE_PARTICLES_MOVE,
+    INSOLE_PARTICLES_STEP, /**< the same by what a phone tells; all before any is weighed */
     INSOLE_PARTICLES_FIELD,
     INSOLE_PARTICLES_WEIGH,
+    INSOLE_PARTICLES_STEP_WEIGH,
     INSOLE_PARTICLES_SUM,
     INSOLE_PARTICLES_RESAMPLE,
     INSOLE_PARTICLES_FINISH
@@ -75,8 +73,10 @@ typedef struct {
 
     insole_rng_t rng;
     uint32_t count;             /**< particles of the cloud that was started; 0: none */
+    bool has_bias;              /**< its particles have biases */
     uint32_t since_start;       /**< strides since */
     insole_weighing_t weighing; /**< what is being worked in */
+    insole_step_weighing_t steps;
 
     insole_particle_phase_t phase;
     bool is_blind; /**< no plan tells of walls */
@@ -104,9 +104,19 @@ insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
                                              const insole_cloud_t *cloud,
                                              const insole_particle_start_t *start);
 
+/** The same from a source that insole_particle_origin_source() made.
+ *  @param fix  by radio, about which particles are drawn: what part of their way to it is bias is
+ *              known of each; NULL: none
+ *  @return as above, and as insole_spot_fix_check() */
+insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filter,
+                                                  const insole_cloud_t *cloud,
+                                                  const insole_cloud_source_t *source,
+                                                  const insole_spot_fix_t *fix);
+
 /** Takes news to be worked in. Readings of unknown access points are passed over.
  *  @param building  NULL: nothing is known of it
- *  @return INSOLE_ERR_NULL, INSOLE_ERR_STATE before the start and while work is left */
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_STATE before the start and while work is left;
+ *          INSOLE_ERR_TIME for a fix by fingerprints that is not newer than the one before */
 insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
                                              const insole_building_t *building,
                                              const insole_evidence_t *news);

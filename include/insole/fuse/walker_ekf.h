@@ -42,7 +42,7 @@
 #define INSOLE_FUSE_WALKER_EKF_H
 
 #include "insole/base/config.h"
-#include "insole/fuse/step_news.h"
+#include "insole/fuse/step_filter.h"
 #include "insole/fuse/walker_state.h"
 
 #ifdef __cplusplus
@@ -134,6 +134,9 @@ insole_status_t insole_walker_ekf_compass(insole_walker_ekf_t *walker, insole_re
  *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE, the answer untouched, before the start */
 insole_status_t insole_walker_ekf_answer(const insole_walker_ekf_t *walker,
                                          insole_walker_answer_t *answer);
+
+/** For a tracker; the state is an `insole_walker_ekf_t`. */
+extern const insole_step_filter_calls_t insole_walker_ekf_calls;
 
 #ifdef __cplusplus
 }

@@ -19,8 +19,8 @@
 #ifndef INSOLE_FUSE_WEIGHING_H
 #define INSOLE_FUSE_WEIGHING_H
 
+#include "insole/fuse/cloud_source.h"
 #include "insole/fuse/evidence.h"
-#include "insole/fuse/particle_cloud.h"
 #include "insole/place/floor_plan.h"
 #include "insole/place/rss_field.h"
 
@@ -31,8 +31,9 @@ extern "C" {
 /** How a plan kills. */
 typedef enum {
     INSOLE_WALLS_OFF = 0,
-    INSOLE_WALLS_INSIDE = 1, /**< whose stride ends where nobody can be, (40) */
-    INSOLE_WALLS_CROSSES = 2 /**< whose stride meets a wall anywhere */
+    INSOLE_WALLS_INSIDE = 1,  /**< whose stride ends where nobody can be, (40) */
+    INSOLE_WALLS_CROSSES = 2, /**< whose stride meets a wall anywhere */
+    INSOLE_WALLS_SOFT = 3     /**< nobody, as off, but see soft_walls.h */
 } insole_walls_t;
 
 typedef struct {
@@ -47,6 +48,14 @@ typedef struct {
 
 /** No particle has been weighed. */
 void insole_weighing_begin(insole_weighing_t *weighing);
+
+/** Takes the scan that was told, and lays its field over where the walker was when it was heard.
+ *  @param news      with the caller's readings
+ *  @param wide_rad  with a larger 1-sigma of the offset all directions are possible
+ *  @return whether there is anything to weigh by */
+bool insole_weighing_listen(const insole_weighing_t *weighing, insole_rss_field_t *field,
+                            const insole_building_t *building, const insole_evidence_t *news,
+                            const insole_cloud_source_t *reach, insole_real_t wide_rad);
 
 /** Walks the stride, if there is one, and tells the field where the particle needs it, if there is
  *  a scan. A particle that the plan kills is marked dead, the dead stay where they are.

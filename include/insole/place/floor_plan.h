@@ -109,6 +109,16 @@ insole_status_t insole_floor_plan_clearance(const insole_floor_plan_t *plan, ins
                                             insole_real_t y_m, insole_real_t limit_m,
                                             insole_real_t *distance_m);
 
+/** Does the point lie deep in a closed area: outside the walkable area, and farther than `depth_m`
+ *  from each edge of it? Inner walls do not count. An edge that another outline or hole covers
+ * does; all that lies far outside the plan is closed. Costs by the area of `depth_m` where the
+ * point is not walkable, else as much as insole_floor_plan_inside().
+ *  @param depth_m  >= 0
+ *  @return false also for `plan` NULL; for coordinates out of range, or a depth that is no number,
+ *          as if outside, and deep */
+bool insole_floor_plan_is_closed(const insole_floor_plan_t *plan, insole_real_t x_m,
+                                 insole_real_t y_m, insole_real_t depth_m);
+
 #ifdef __cplusplus
 }
 #endif

@@ -50,6 +50,17 @@ bool insole_map_search_next(insole_map_search_t *search, const insole_radio_map_
 
 bool insole_map_search_has_more(const insole_map_search_t *search);
 
+/** Squares of what the scan heard above `unheard_dbm`, for the next. */
+insole_real_t insole_map_search_heard_db2(const insole_map_search_t *search,
+                                          insole_real_t unheard_dbm);
+
+/** Squared differences in dB over all that the scan or the point has heard; what one of them has
+ *  not heard counts as `unheard_dbm`.
+ *  @param heard_db2  of insole_map_search_heard_db2() */
+insole_real_t insole_map_search_distance_db2(const insole_map_search_t *search,
+                                             const insole_radio_map_t *map, uint32_t point,
+                                             insole_real_t unheard_dbm, insole_real_t heard_db2);
+
 void insole_map_search_add(insole_map_search_t *search, const insole_radio_map_t *map,
                            uint32_t point, insole_real_t log_weight);
 

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/fuse/step_cloud.h"
+
+#include <stddef.h>
+
+#define ZERO INSOLE_R(0.0)
+
+/* So many particles' worth of work at a time, where all must be done. */
+static const uint32_t SLICE = 1000000u;
+
+const insole_step_cloud_config_t insole_step_cloud_defaults = {
+    INSOLE_STEP_CLOUD_KEYS(INSOLE_CONFIG_DEFAULT) INSOLE_PARTICLE_FILTER_PHONE};
+
+const insole_step_cloud_config_t insole_step_cloud_plain = {
+    INSOLE_STEP_CLOUD_KEYS(INSOLE_CONFIG_DEFAULT) INSOLE_PARTICLE_FILTER_PHONE_PLAIN};
+
+static insole_status_t refuse(insole_step_cloud_t *cloud, insole_status_t why)
+{
+    cloud->refused++;
+    return why;
+}
+
+static insole_status_t check(const insole_step_cloud_config_t *config, const insole_cloud_t *memory)
+{
+    if (!(true INSOLE_STEP_CLOUD_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+        return INSOLE_ERR_VALUE;
+    }
+    insole_status_t status = insole_cloud_check(memory);
+    if (status == INSOLE_OK && config->particles.bias_sigma_m > ZERO && !memory->bias) {
+        return INSOLE_ERR_NULL;
+    }
+    return status == INSOLE_OK ? insole_particle_config_check(&config->particles) : status;
+}
+
+insole_status_t insole_step_cloud_init(insole_step_cloud_t *cloud,
+                                       const insole_step_cloud_config_t *config,
+                                       const insole_cloud_t *memory,
+                                       const insole_floor_plan_t *plan, uint64_t seed)
+{
+    if (!cloud || !config || !memory) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_status_t status = check(config, memory);
+    if (status != INSOLE_OK) {
+        return status;
+    }
+    static const insole_step_cloud_t blank;
+    *cloud = blank;
+    cloud->process = config->process;
+    cloud->cloud = *memory;
+    cloud->building.plan = plan;
+    cloud->ring = insole_ring(INSOLE_STEP_CLOUD_WAITING);
+    return insole_particle_filter_init(&cloud->filter, &config->particles, seed);
+}
+
+insole_status_t insole_step_cloud_start(insole_step_cloud_t *cloud,
+                                        const insole_step_origin_t *origin)
+{
+    if (!cloud || !origin) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!insole_spot_is_start(origin->spot, origin->cov_m2, origin->offset_rad) ||
+        !(origin->var_offset_rad2 >= ZERO)) {
+        return refuse(cloud, INSOLE_ERR_VALUE);
+    }
+    insole_particle_origin_t from = {{origin->t_us, origin->spot, origin->cov_m2, {ZERO, ZERO}},
+                                     origin->is_radio,
+                                     origin->offset_rad,
+                                     insole_sqrt(origin->var_offset_rad2)};
+    const insole_particle_filter_config_t *config = &cloud->filter.config;
+    insole_cloud_source_t source =
+        insole_particle_origin_source(&from, config->bias_sigma_m, config->sigma_scale);
+    insole_status_t status = insole_particle_filter_start_from(
+        &cloud->filter, &cloud->cloud, &source, origin->is_radio ? &from.at : NULL);
+    if (status != INSOLE_OK) {
+        return refuse(cloud, status);
+    }
+    cloud->has_fix = origin->is_radio;
+    cloud->fix_us = origin->t_us;
+    cloud->ring = insole_ring(INSOLE_STEP_CLOUD_WAITING);
+    return INSOLE_OK;
+}
+
+/* ---- the queue ---- */
+
+static bool is_started(const insole_step_cloud_t *cloud)
+{
+    return cloud->filter.count > 0u;
+}
+
+static bool is_idle(const insole_step_cloud_t *cloud)
+{
+    return cloud->filter.phase == INSOLE_PARTICLES_IDLE;
+}
+
+/* The particle filter takes the oldest. */
+static void hand_on(insole_step_cloud_t *cloud)
+{
+    const insole_step_cloud_news_t *oldest =
+        &cloud->waiting[insole_ring_slot(&cloud->ring, cloud->ring.begin)];
+    const insole_pace_t *pace = &oldest->pace;
+    insole_evidence_t news;
+    insole_evidence_clear(&news);
+    if (oldest->kind == INSOLE_STEP_CLOUD_PACE) {
+        insole_evidence_stride(&news, pace->length_m, pace->heading_rad, ZERO);
+        insole_evidence_scatter(&news, pace->var_length_m2,
+                                insole_min(pace->var_heading_rad2, INSOLE_HEADING_MOST_R2));
+    } else if (oldest->kind == INSOLE_STEP_CLOUD_FIX) {
+        insole_evidence_fix(&news, &oldest->fix);
+    } else {
+        insole_evidence_compass(&news, oldest->offset_rad, oldest->sigma_rad);
+    }
+    insole_particle_filter_begin(&cloud->filter, &cloud->building, &news);
+    insole_ring_pop(&cloud->ring);
+}
+
+/* Ends what is in work, and begins the oldest that waits. */
+static void make_room(insole_step_cloud_t *cloud)
+{
+    while (insole_particle_filter_work(&cloud->filter, &cloud->cloud, &cloud->building, SLICE)) {
+    }
+    if (insole_ring_count(&cloud->ring) > 0u) {
+        hand_on(cloud);
+    }
+}
+
+static insole_status_t tell(insole_step_cloud_t *cloud, const insole_step_cloud_news_t *news)
+{
+    if (insole_ring_is_full(&cloud->ring)) {
+        make_room(cloud);
+    }
+    cloud->waiting[insole_ring_push(&cloud->ring)] = *news;
+    return INSOLE_OK;
+}
+
+insole_status_t insole_step_cloud_step(insole_step_cloud_t *cloud, const insole_pace_t *pace)
+{
+    if (!cloud || !pace) {
+        return INSOLE_ERR_NULL;
+    }
+    if (insole_pace_check(pace) != INSOLE_OK) {
+        return refuse(cloud, INSOLE_ERR_VALUE);
+    }
+    if (!is_started(cloud)) {
+        return refuse(cloud, INSOLE_ERR_STATE);
+    }
+    insole_step_cloud_news_t news = {.kind = INSOLE_STEP_CLOUD_PACE, .pace = *pace};
+    if (cloud->process == INSOLE_STEP_CLOUD_CONSTANT) {
+        news.pace.var_length_m2 = ZERO;
+        news.pace.var_heading_rad2 = ZERO;
+    }
+    return tell(cloud, &news);
+}
+
+insole_status_t insole_step_cloud_fix(insole_step_cloud_t *cloud, const insole_spot_fix_t *fix)
+{
+    if (!cloud || !fix) {
+        return INSOLE_ERR_NULL;
+    }
+    if (insole_spot_fix_check(fix) != INSOLE_OK) {
+        return refuse(cloud, INSOLE_ERR_VALUE);
+    }
+    if (!is_started(cloud)) {
+        return refuse(cloud, INSOLE_ERR_STATE);
+    }
+    if (cloud->has_fix && fix->t_us <= cloud->fix_us) {
+        return refuse(cloud, INSOLE_ERR_TIME);
+    }
+    insole_step_cloud_news_t news = {.kind = INSOLE_STEP_CLOUD_FIX, .fix = *fix};
+    cloud->has_fix = true;
+    cloud->fix_us = fix->t_us;
+    return tell(cloud, &news);
+}
+
+insole_status_t insole_step_cloud_compass(insole_step_cloud_t *cloud, insole_real_t offset_rad,
+                                          insole_real_t sigma_rad)
+{
+    if (!cloud) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_evidence_t tried;
+    insole_evidence_clear(&tried);
+    if (insole_evidence_compass(&tried, offset_rad, sigma_rad) != INSOLE_OK) {
+        return refuse(cloud, INSOLE_ERR_VALUE);
+    }
+    if (!is_started(cloud)) {
+        return refuse(cloud, INSOLE_ERR_STATE);
+    }
+    insole_step_cloud_news_t news = {
+        .kind = INSOLE_STEP_CLOUD_COMPASS, .offset_rad = offset_rad, .sigma_rad = sigma_rad};
+    return tell(cloud, &news);
+}
+
+insole_status_t insole_step_cloud_rss(insole_step_cloud_t *cloud, const insole_rss_weigh_t *rss,
+                                      insole_spot_t since)
+{
+    if (!cloud || !rss) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_evidence_t news;
+    insole_evidence_clear(&news);
+    insole_status_t status = insole_evidence_rss(&news, rss, since);
+    status = status == INSOLE_OK && !is_started(cloud) ? INSOLE_ERR_STATE : status;
+    if (status != INSOLE_OK) {
+        return refuse(cloud, status);
+    }
+    while (insole_step_cloud_work(cloud, SLICE)) {
+    }
+    insole_particle_filter_begin(&cloud->filter, &cloud->building, &news);
+    while (insole_step_cloud_work(cloud, SLICE)) {
+    }
+    return INSOLE_OK;
+}
+
+/* ---- the work ---- */
+
+bool insole_step_cloud_work(insole_step_cloud_t *cloud, uint32_t particles)
+{
+    if (!cloud || !is_started(cloud)) {
+        return false;
+    }
+    if (is_idle(cloud) && insole_ring_count(&cloud->ring) > 0u && particles > 0u) {
+        hand_on(cloud);
+    }
+    insole_particle_filter_work(&cloud->filter, &cloud->cloud, &cloud->building, particles);
+    return !is_idle(cloud) || insole_ring_count(&cloud->ring) > 0u;
+}
+
+insole_status_t insole_step_cloud_answer(const insole_step_cloud_t *cloud,
+                                         insole_step_cloud_answer_t *answer)
+{
+    if (!cloud || !answer) {
+        return INSOLE_ERR_NULL;
+    }
+    const insole_cloud_fix_t *fix = &cloud->filter.fix;
+    if (!cloud->filter.has_fix) {
+        return INSOLE_ERR_STATE;
+    }
+    answer->spot = insole_spot(fix->x_m, fix->y_m);
+    answer->cov_m2 = insole_spot_cov(insole_sym2(fix->var_x_m2, fix->cov_xy_m2, fix->var_y_m2));
+    answer->offset_rad = fix->offset_rad;
+    answer->var_offset_rad2 = fix->var_offset_rad2;
+    answer->scale = fix->scale;
+    answer->waiting = insole_ring_count(&cloud->ring) + (is_idle(cloud) ? 0u : 1u);
+    return INSOLE_OK;
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+#include "forest_writer.h"
+
+#include "c_text.h"
+
+static void write_nodes(FILE *file, const grown_t *grown, const char *name)
+{
+    char number[C_REAL_ROOM];
+    fprintf(file, "static const insole_carry_node_t %s_nodes[%lu] = {\n", name,
+            (unsigned long)grown->node_count);
+    for (size_t i = 0u; i < grown->node_count; i++) {
+        const insole_carry_node_t *node = &grown->nodes[i];
+        fprintf(file, "    {%s, %u, %u, %u},\n", c_real(number, node->threshold),
+                (unsigned)node->feature, (unsigned)node->at_most, (unsigned)node->above);
+    }
+    fputs("};\n\n", file);
+}
+
+static void write_roots(FILE *file, const grown_t *grown, const char *name)
+{
+    fprintf(file, "static const uint16_t %s_roots[%u] = {", name,
+            (unsigned)grown->forest.tree_count + 1u);
+    for (unsigned tree = 0u; tree <= grown->forest.tree_count; tree++) {
+        fprintf(file, "%s%u",
+                tree == 0u         ? ""
+                : tree % 14u == 0u ? ",\n    "
+                                   : ", ",
+                (unsigned)grown->roots[tree]);
+    }
+    fputs("};\n\n", file);
+}
+
+static void write_names(FILE *file, const insole_carry_forest_t *forest, const char *name)
+{
+    fprintf(file, "static const char *const %s_names[%u] = {", name, (unsigned)forest->class_count);
+    for (unsigned k = 0u; k < forest->class_count; k++) {
+        fputs(k == 0u ? "" : ", ", file);
+        c_write_string(file, forest->names[k]);
+    }
+    fputs("};\n\n", file);
+}
+
+void forest_write(FILE *file, const grown_t *grown, const char *name, const char *head)
+{
+    fprintf(file, "/* %s\n * The table takes %lu bytes. */\n", head,
+            (unsigned long)forest_bytes(grown));
+    fputs("#include \"insole/sense/carry_forest.h\"\n\n/* Say this where the table is used. */\n",
+          file);
+    fprintf(file, "extern const insole_carry_forest_t %s_forest;\n\n", name);
+    write_nodes(file, grown, name);
+    write_roots(file, grown, name);
+    write_names(file, &grown->forest, name);
+    fprintf(file,
+            "const insole_carry_forest_t %s_forest = {%s_nodes, %s_roots, %s_names, %u, %u};\n",
+            name, name, name, name, (unsigned)grown->forest.tree_count,
+            (unsigned)grown->forest.class_count);
+}
