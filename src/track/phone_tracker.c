@@ -344,18 +344,6 @@ static void use_fix(insole_phone_tracker_t *t)
     (void)insole_phone_place_fix(&t->place, &fix);
 }
 
-/* @return false when the whole map is to be looked at */
-static bool trusted_area(const insole_phone_tracker_t *t, insole_trusted_area_t *area)
-{
-    insole_phone_answer_t known;
-    bool wanted = t->config.trust_sigmas > ZERO && has_filter(&t->parts);
-    return wanted && insole_phone_place_answer(&t->place, t->t_us, &known) == INSOLE_OK &&
-           known.knowledge == INSOLE_PHONE_FILTERED &&
-           insole_trusted_area_around(known.at.spot, known.at.cov_m2.xx, known.at.cov_m2.xy,
-                                      known.at.cov_m2.yy, t->config.trust_sigmas,
-                                      t->config.trust_least_m, area) == INSOLE_OK;
-}
-
 /* The filter would take no fix of an earlier time after it. */
 static bool is_far_ahead(const insole_phone_tracker_t *t, uint64_t t_us)
 {
@@ -372,8 +360,11 @@ insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
         return answer(tracker, INSOLE_ERR_TIME);
     }
     insole_trusted_area_t area;
-    const insole_trusted_area_t *near = trusted_area(tracker, &area) ? &area : NULL;
-    return answer(tracker, insole_phone_radio_hear(&tracker->radio, scan, near));
+    const insole_phone_tracker_config_t *c = &tracker->config;
+    bool is_known = c->trust_sigmas > ZERO && has_filter(&tracker->parts) &&
+                    insole_phone_place_area(&tracker->place, tracker->t_us, c->trust_sigmas,
+                                            c->trust_least_m, &area);
+    return answer(tracker, insole_phone_radio_hear(&tracker->radio, scan, is_known ? &area : NULL));
 }
 
 bool insole_phone_tracker_work(insole_phone_tracker_t *tracker, uint32_t count)
