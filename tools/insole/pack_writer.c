@@ -139,7 +139,7 @@ static void write_names(const writer_t *writer, const char *table, const id_tabl
             (unsigned long)ids->count);
     for (size_t i = 0u; i < ids->count; i++) {
         fputs("    ", writer->file);
-        write_string(writer->file, ids->names[i]);
+        c_write_string(writer->file, ids->names[i]);
         fputs(",\n", writer->file);
     }
     fputs("};\n", writer->file);
@@ -170,11 +170,6 @@ static void write_aps(const writer_t *writer)
     static uint32_t name(const site_t *site, size_t i)                                             \
     {                                                                                              \
         return site->radiomap_file.map.member[i];                                                  \
-    fprintf(file, "};\n\nconst char *const %s_ap_ids[%lu] = {\n", writer->name, count);
-    for (size_t i = 0u; i < aps->count; i++) {
-        fputs("    ", file);
-        c_write_string(file, aps->ids.names[i]);
-        fputs(",\n", file);
     }
 
 MAP_COLUMN(first_at, first)
@@ -270,7 +265,7 @@ static void write_sources(const writer_t *writer)
     for (size_t i = 0u; i < sizeof names / sizeof names[0]; i++) {
         if (names[i] != NULL) {
             fputs(is_first ? "" : " and ", writer->file);
-            write_comment(writer->file, names[i]);
+            c_write_comment(writer->file, names[i]);
             is_first = false;
         }
     }
@@ -281,9 +276,6 @@ static void write_head(const writer_t *writer)
     const site_t *site = writer->site;
     fputs("/* Made by `insole pack` from ", writer->file);
     write_sources(writer);
-    c_write_comment(writer->file, site->building.plan != NULL ? site->plan_file.name : "");
-    fputs(site->building.plan != NULL && site->ap_file.count > 0u ? " and " : "", writer->file);
-    c_write_comment(writer->file, site->ap_file.count > 0u ? site->ap_file.name : "");
     fprintf(writer->file,
             ": change those, not this.\n"
             " * The plan takes %lu bytes, the access points %lu and their ids",
