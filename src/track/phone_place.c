@@ -275,3 +275,13 @@ insole_status_t insole_phone_place_answer(const insole_phone_place_t *place, uin
     }
     return INSOLE_OK;
 }
+
+bool insole_phone_place_area(const insole_phone_place_t *place, uint64_t t_us, insole_real_t sigmas,
+                             insole_real_t least_m, insole_trusted_area_t *area)
+{
+    insole_phone_answer_t known;
+    return area && insole_phone_place_answer(place, t_us, &known) == INSOLE_OK &&
+           known.knowledge == INSOLE_PHONE_FILTERED &&
+           insole_trusted_area_around(known.at.spot, known.at.cov_m2.xx, known.at.cov_m2.xy,
+                                      known.at.cov_m2.yy, sigmas, least_m, area) == INSOLE_OK;
+}

@@ -11,6 +11,9 @@
 /* A peak without one before it has no duration yet. */
 static const uint64_t LONGEST_STEP_US = 1000000u;
 
+/* A scan so far ahead of the samples has a stamp that cannot be. */
+static const uint64_t SCAN_AHEAD_US = 60000000u;
+
 static bool has_filter(const insole_phone_parts_t *parts)
 {
     return parts->filter.calls != NULL;
@@ -279,16 +282,22 @@ insole_status_t insole_phone_tracker_imu(insole_phone_tracker_t *tracker, const 
     return INSOLE_OK;
 }
 
+/* What the screen holds back at the end, one by one. */
+static void flush(insole_phone_tracker_t *t)
+{
+    insole_clean_t clean;
+    if (t->finished && !t->has_fix && insole_screen_finish(&t->screen, &clean) == INSOLE_OK) {
+        take_clean(t, &clean);
+    }
+}
+
 insole_status_t insole_phone_tracker_finish(insole_phone_tracker_t *tracker)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;
     }
-    insole_clean_t clean;
-    while (!tracker->finished && insole_screen_finish(&tracker->screen, &clean) == INSOLE_OK) {
-        take_clean(tracker, &clean);
-    }
     tracker->finished = true;
+    flush(tracker);
     return INSOLE_OK;
 }
 
@@ -335,16 +344,10 @@ static void use_fix(insole_phone_tracker_t *t)
     (void)insole_phone_place_fix(&t->place, &fix);
 }
 
-/* @return false when the whole map is to be looked at */
-static bool trusted_area(const insole_phone_tracker_t *t, insole_trusted_area_t *area)
+/* The filter would take no fix of an earlier time after it. */
+static bool is_far_ahead(const insole_phone_tracker_t *t, uint64_t t_us)
 {
-    insole_phone_answer_t known;
-    bool wanted = t->config.trust_sigmas > ZERO && has_filter(&t->parts);
-    return wanted && insole_phone_place_answer(&t->place, t->t_us, &known) == INSOLE_OK &&
-           known.knowledge == INSOLE_PHONE_FILTERED &&
-           insole_trusted_area_around(known.at.spot, known.at.cov_m2.xx, known.at.cov_m2.xy,
-                                      known.at.cov_m2.yy, t->config.trust_sigmas,
-                                      t->config.trust_least_m, area) == INSOLE_OK;
+    return has_filter(&t->parts) && t->has_time && t_us > t->t_us && t_us - t->t_us > SCAN_AHEAD_US;
 }
 
 insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
@@ -353,9 +356,15 @@ insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
     if (!tracker) {
         return INSOLE_ERR_NULL;
     }
+    if (scan && is_far_ahead(tracker, scan->t_us)) {
+        return answer(tracker, INSOLE_ERR_TIME);
+    }
     insole_trusted_area_t area;
-    const insole_trusted_area_t *near = trusted_area(tracker, &area) ? &area : NULL;
-    return answer(tracker, insole_phone_radio_hear(&tracker->radio, scan, near));
+    const insole_phone_tracker_config_t *c = &tracker->config;
+    bool is_known = c->trust_sigmas > ZERO && has_filter(&tracker->parts) &&
+                    insole_phone_place_area(&tracker->place, tracker->t_us, c->trust_sigmas,
+                                            c->trust_least_m, &area);
+    return answer(tracker, insole_phone_radio_hear(&tracker->radio, scan, is_known ? &area : NULL));
 }
 
 bool insole_phone_tracker_work(insole_phone_tracker_t *tracker, uint32_t count)
@@ -386,5 +395,6 @@ insole_status_t insole_phone_tracker_next(insole_phone_tracker_t *tracker, insol
     }
     *fix = tracker->fix;
     tracker->has_fix = false;
+    flush(tracker);
     return INSOLE_OK;
 }

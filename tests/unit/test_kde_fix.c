@@ -376,6 +376,34 @@ START_TEST(refusals)
 }
 END_TEST
 
+/* In slices through the table the same bits as at once. */
+START_TEST(the_table_is_the_calls_it_names)
+{
+    const insole_radio_solver_calls_t *calls = &insole_kde_fix_calls;
+    const insole_radio_map_t *map = &prints.map;
+    insole_radio_fix_t direct, named;
+    insole_trusted_area_t near = {{18, 22}, 12}, bad = {{0, 0}, -1};
+    begin(_i);
+    insole_kde_fix_t state = kde;
+    uint32_t count = prints_listen(&rng, APS, 20.0, 20.0, 3.0, 0.0, readings);
+    ck_assert_int_eq(solve(&near, count, &direct), INSOLE_OK);
+    ck_assert_int_eq(calls->begin(&state, map, &near, readings, count), INSOLE_OK);
+    while (calls->work(&state, map, 7u)) {
+        ck_assert_int_eq(calls->finish(&state, map, &named), INSOLE_ERR_STATE);
+    }
+    ck_assert_int_eq(calls->finish(&state, map, &named), INSOLE_OK);
+    ck_assert_mem_eq(&named.spot, &direct.spot, sizeof named.spot);
+    ck_assert(named.var_x_m2 == direct.var_x_m2 && named.cov_xy_m2 == direct.cov_xy_m2);
+    ck_assert(named.var_y_m2 == direct.var_y_m2);
+    ASSERT_UNCHANGED(state, calls->finish(&state, map, &named), INSOLE_ERR_STATE);
+    ASSERT_UNCHANGED(state, calls->begin(&state, map, &bad, readings, count), INSOLE_ERR_VALUE);
+    ASSERT_UNCHANGED(state, calls->begin(&state, NULL, NULL, readings, count), INSOLE_ERR_NULL);
+    ck_assert_int_eq(calls->begin(NULL, map, NULL, readings, count), INSOLE_ERR_NULL);
+    ck_assert(!calls->work(NULL, map, 7u));
+    ck_assert_int_eq(calls->finish(NULL, map, &named), INSOLE_ERR_NULL);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("kde_fix");
@@ -392,5 +420,6 @@ Suite *insole_suite(void)
     suite_add(suite, "normal reference", normal_reference);
     suite_add(suite, "settings", settings);
     suite_add(suite, "refusals", refusals);
+    suite_add_loop(suite, "table", the_table_is_the_calls_it_names, 2);
     return suite;
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/ml_shift.h"
 
+#include "filter_calls.h"
+
 #include "insole/base/snapshot.h"
 #include "near.h"
 #include "plane.h"
@@ -542,6 +544,44 @@ START_TEST(a_saved_state_goes_on_alike)
 }
 END_TEST
 
+/* Bit for bit what the calls themselves do with the same news. */
+START_TEST(the_table_is_the_calls_it_names)
+{
+    const insole_step_filter_calls_t *calls = &insole_ml_shift_calls;
+    insole_step_filter_begin_t at = filter_begin();
+    insole_step_filter_answer_t answer;
+    insole_ml_shift_t direct = begin(&insole_ml_shift_defaults), named = direct;
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 50u);
+    ck_assert_int_eq(insole_ml_shift_start(&direct, at.spot, at.cov_m2, at.offset_rad), INSOLE_OK);
+    ck_assert_int_eq(calls->start(&named, &at), INSOLE_OK);
+    for (uint32_t i = 1u; i < 100u; i++) {
+        insole_pace_t pace = some_pace(&rng);
+        insole_spot_fix_t fix = fix_at(i, sample_spot(&rng, 9));
+        step(&direct, &pace);
+        ck_assert_int_eq(calls->step(&named, i, &pace), INSOLE_OK);
+        take(&direct, &fix);
+        ck_assert_int_eq(calls->fix(&named, &fix), INSOLE_OK);
+        ck_assert_mem_eq(&direct, &named, sizeof direct);
+    }
+    ck_assert_int_eq(calls->answer(&named, &answer), INSOLE_OK);
+    ck_assert_mem_eq(&answer.spot, &direct.spot, sizeof answer.spot);
+    ck_assert_mem_eq(&answer.cov_m2, &direct.P, sizeof answer.cov_m2);
+    ck_assert(answer.offset_rad == direct.offset_rad);
+    ck_assert(answer.var_offset_rad2 == 0 && answer.scale == 1);
+    ck_assert(!calls->compass && !calls->work);
+}
+END_TEST
+
+START_TEST(the_table_refuses_what_the_calls_refuse)
+{
+    insole_ml_shift_t ml;
+    ck_assert_int_eq(insole_ml_shift_init(&ml, &insole_ml_shift_defaults), INSOLE_OK);
+    check_filter_calls(&insole_ml_shift_calls, &ml);
+    ck_assert_uint_eq(ml.refused, 3u);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("ml_shift");
@@ -558,5 +598,7 @@ Suite *insole_suite(void)
     suite_add(suite, "settings", settings_have_their_ranges);
     suite_add(suite, "refused", bad_input_is_refused);
     suite_add(suite, "saved", a_saved_state_goes_on_alike);
+    suite_add(suite, "table", the_table_is_the_calls_it_names);
+    suite_add(suite, "table refuses", the_table_refuses_what_the_calls_refuse);
     return suite;
 }

@@ -543,6 +543,28 @@ START_TEST(a_start_that_the_filter_refuses_starts_nothing)
 }
 END_TEST
 
+/* Radius: so many of the longer axis, and so much more. */
+START_TEST(the_area_lies_about_the_walker_that_a_filter_knows)
+{
+    insole_trusted_area_t area = {{INSOLE_R(7.0), INSOLE_R(7.0)}, INSOLE_R(7.0)};
+    insole_trusted_area_t before = area;
+    set_up(&plain, true);
+    ck_assert(!insole_phone_place_area(&place, 1u, INSOLE_R(3.0), INSOLE_R(10.0), &area));
+    ck_assert_int_eq(hear(1.0, 5.0, 6.0), INSOLE_OK); /* a guess is not enough */
+    ck_assert(!insole_phone_place_area(&place, 1u, INSOLE_R(3.0), INSOLE_R(10.0), &area));
+    ck_assert_mem_eq(&area, &before, sizeof area);
+    set_up_started(&plain);
+    fake.at.spot = insole_spot(INSOLE_R(11.0), INSOLE_R(12.0));
+    fake.at.cov_m2 = insole_sym2(INSOLE_R(5.0), INSOLE_R(2.0), INSOLE_R(2.0)); /* 6 and 1 */
+    ck_assert(insole_phone_place_area(&place, 3000000u, INSOLE_R(3.0), INSOLE_R(10.0), &area));
+    ASSERT_NEAR(area.centre.x_m, 11.0, 0.0, "m");
+    ASSERT_NEAR(area.centre.y_m, 12.0, 0.0, "m");
+    ASSERT_NEAR(area.radius_m, 10.0 + 3.0 * sqrt(6.0), 1e-4, "m");
+    ck_assert(!insole_phone_place_area(&place, 1u, INSOLE_R(3.0), INSOLE_R(10.0), NULL));
+    ck_assert(!insole_phone_place_area(NULL, 1u, INSOLE_R(3.0), INSOLE_R(10.0), &area));
+}
+END_TEST
+
 /* ---- gaps -------------------------------------------------------------------------------- */
 
 START_TEST(after_a_gap_it_is_less_certain_where_it_was)
@@ -738,6 +760,7 @@ Suite *insole_suite(void)
     suite_add(suite, "fixes", fixes_go_to_the_filter);
     suite_add_loop(suite, "compass", a_new_block_of_the_compass_goes_to_a_filter_that_learns, 2);
     suite_add(suite, "compass too soon", before_the_start_the_filter_hears_of_no_compass);
+    suite_add(suite, "area", the_area_lies_about_the_walker_that_a_filter_knows);
     suite_add(suite, "refused by the filter", what_the_filter_refuses_is_counted_and_told);
     suite_add(suite, "start refused", a_start_that_the_filter_refuses_starts_nothing);
     suite_add_loop(suite, "gap", after_a_gap_it_is_less_certain_where_it_was, 4);

@@ -509,6 +509,56 @@ START_TEST(settings_have_ends)
 }
 END_TEST
 
+/* What is held back is, once it is told, the very same steps, the first of them too. */
+START_TEST(held_steps_are_those_that_will_be_told)
+{
+    insole_footfall_t held[INSOLE_STEP_HELD], none;
+    uint32_t count = 0u;
+    footsteps_walk(&walk, 2.0, 20, 0.55, 6.0);
+    begin();
+    for (double t_s = 0.0; tolds == 0; t_s += 0.02) {
+        ck_assert(t_s < 10.0);
+        for (count = 0u; insole_step_held(&counter, count, &held[count]) == INSOLE_OK; count++) {
+            ck_assert_uint_lt(count + 1u, INSOLE_STEP_HELD);
+        }
+        ck_assert_uint_eq(count, counter.held);
+        push(t_s, felt(t_s));
+    }
+    ck_assert_uint_ge(count, 3u); /* and the peak that made it a walk */
+    ck_assert_int_eq(tolds, (int)count + 1);
+    for (uint32_t i = 0u; i < count; i++) {
+        ck_assert(held[i].begin_us == told[i].begin_us && held[i].end_us == told[i].end_us);
+        ck_assert(held[i].peak_mps2 == told[i].peak_mps2);
+        ck_assert(held[i].range_mps2 == told[i].range_mps2);
+        ck_assert(held[i].accel_sigma_mps2 == told[i].accel_sigma_mps2);
+    }
+    ASSERT_UNCHANGED(counter, insole_step_held(&counter, 0u, &none), INSOLE_ERR_STATE);
+}
+END_TEST
+
+START_TEST(held_steps_wait_behind_those_not_taken_out)
+{
+    insole_footfall_t footfall;
+    bool seen = false;
+    footsteps_walk(&walk, 2.0, 6, 0.55, 6.0);
+    footsteps_walk(&walk, 18.0, 3, 0.55, 6.0);
+    begin();
+    for (long i = 0; i < 1100; i++) { /* nobody takes out a step */
+        double t_s = (double)i / rate_hz;
+        insole_vec3_t a = insole_vec3_scale(direction, (insole_real_t)felt(t_s));
+        (void)insole_step_push(&counter, clock_us + (uint64_t)(t_s * 1e6 + 0.5), a);
+        uint32_t waiting = insole_ring_count(&counter.ring) - counter.held;
+        for (uint32_t n = 0u; waiting > 0u && n < counter.held; n++) {
+            ck_assert_int_eq(insole_step_held(&counter, n, &footfall), INSOLE_OK);
+            ck_assert(footfall.end_us > counter.footfalls[0].end_us);
+            ck_assert(footfall.end_us > footfall.begin_us);
+            seen = true;
+        }
+    }
+    ck_assert(seen);
+}
+END_TEST
+
 START_TEST(bad_arguments_are_refused)
 {
     insole_footfall_t footfall;
@@ -520,6 +570,9 @@ START_TEST(bad_arguments_are_refused)
     ck_assert_int_eq(insole_step_init(NULL, &config), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_step_push(NULL, 1u, a), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_step_next(NULL, &footfall), INSOLE_ERR_NULL);
+    ASSERT_UNCHANGED(counter, insole_step_held(&counter, 0u, NULL), INSOLE_ERR_NULL);
+    ASSERT_UNCHANGED(counter, insole_step_held(&counter, 0u, &footfall), INSOLE_ERR_STATE);
+    ck_assert_int_eq(insole_step_held(NULL, 0u, &footfall), INSOLE_ERR_NULL);
 }
 END_TEST
 
@@ -561,6 +614,8 @@ Suite *insole_suite(void)
     add(suite, "any signal", any_signal_gives_finite_footfalls, 1);
     add(suite, "room", steps_that_nobody_takes_out_stop_the_counter, 1);
     add(suite, "settings", settings_have_ends, 1);
+    add(suite, "held", held_steps_are_those_that_will_be_told, 1);
+    add(suite, "held behind", held_steps_wait_behind_those_not_taken_out, 1);
     add(suite, "bad arguments", bad_arguments_are_refused, 1);
     return suite;
 }

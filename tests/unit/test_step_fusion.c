@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/step_fusion.h"
 
+#include "filter_calls.h"
 #include "insole/base/snapshot.h"
 #include "insole/fuse/step_ekf.h"
 #include "insole/fuse/step_ukf.h"
@@ -469,6 +470,47 @@ START_TEST(a_saved_state_goes_on_alike)
 }
 END_TEST
 
+static const insole_step_filter_calls_t *const CALLS[] = {
+    &insole_step_kf_calls, &insole_step_ekf_calls, &insole_step_ukf_calls};
+
+/* Bit for bit what the calls themselves do with the same news. */
+START_TEST(the_tables_are_the_calls_they_name)
+{
+    insole_step_filter_begin_t at = filter_begin();
+    insole_step_filter_answer_t answer;
+    insole_step_fusion_t direct = begin(&insole_step_fusion_defaults), named = direct;
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 40u + (uint64_t)_i);
+    ck_assert_int_eq(insole_step_fusion_start(&direct, at.spot, at.cov_m2, at.offset_rad),
+                     INSOLE_OK);
+    ck_assert_int_eq(CALLS[_i]->start(&named, &at), INSOLE_OK);
+    for (uint32_t i = 1u; i < 100u; i++) {
+        insole_pace_t pace = some_pace(&rng);
+        insole_spot_fix_t fix = fix_at(i, sample_spot(&rng, 9), 3);
+        ck_assert_int_eq(insole_step_fusion_step(&direct, METHOD[_i], &pace), INSOLE_OK);
+        ck_assert_int_eq(CALLS[_i]->step(&named, i, &pace), INSOLE_OK);
+        take(&direct, &fix);
+        ck_assert_int_eq(CALLS[_i]->fix(&named, &fix), INSOLE_OK);
+        ck_assert_mem_eq(&direct, &named, sizeof direct);
+    }
+    ck_assert_int_eq(CALLS[_i]->answer(&named, &answer), INSOLE_OK);
+    ck_assert_mem_eq(&answer.spot, &direct.spot, sizeof answer.spot);
+    ck_assert_mem_eq(&answer.cov_m2, &direct.P, sizeof answer.cov_m2);
+    ck_assert(answer.offset_rad == direct.offset_rad);
+    ck_assert(answer.var_offset_rad2 == 0 && answer.scale == 1);
+    ck_assert(!CALLS[_i]->compass && !CALLS[_i]->work);
+}
+END_TEST
+
+START_TEST(the_tables_refuse_what_the_calls_refuse)
+{
+    insole_step_fusion_t fusion;
+    ck_assert_int_eq(insole_step_fusion_init(&fusion, &insole_step_fusion_defaults), INSOLE_OK);
+    check_filter_calls(CALLS[_i], &fusion);
+    ck_assert_uint_eq(fusion.refused, 3u);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("step_fusion");
@@ -485,5 +527,7 @@ Suite *insole_suite(void)
     suite_add(suite, "settings", settings_have_their_ranges);
     suite_add(suite, "refused", bad_input_is_refused);
     suite_add(suite, "saved", a_saved_state_goes_on_alike);
+    suite_add_loop(suite, "tables", the_tables_are_the_calls_they_name, 3);
+    suite_add_loop(suite, "tables refuse", the_tables_refuse_what_the_calls_refuse, 3);
     return suite;
 }

@@ -127,6 +127,26 @@ START_TEST(no_doubt_gives_no_covariance)
 }
 END_TEST
 
+/* The table's step is this method, not another one. */
+START_TEST(the_table_steps_by_it)
+{
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 6u);
+    insole_step_fusion_t fusion;
+    insole_step_filter_begin_t begin = {.cov_m2 = {1, 0, 1}};
+    ck_assert_int_eq(insole_step_fusion_init(&fusion, &insole_step_fusion_defaults), INSOLE_OK);
+    ck_assert_int_eq(insole_step_ukf_calls.start(&fusion, &begin), INSOLE_OK);
+    insole_pace_t pace = some_pace(&rng, INSOLE_R(0.1));
+    insole_step_way_t way = insole_step_ukf(&pace);
+    ck_assert_int_eq(insole_step_ukf_calls.step(&fusion, 1u, &pace), INSOLE_OK);
+    ASSERT_NEAR(fusion.spot.x_m, way.mean.x_m, 4.0 * EPS, "m");
+    ASSERT_NEAR(fusion.spot.y_m, way.mean.y_m, 4.0 * EPS, "m");
+    ASSERT_NEAR(fusion.P.xx, 1.0 + (double)way.Q.xx, 4.0 * EPS, "m^2");
+    ASSERT_NEAR(fusion.P.xy, (double)way.Q.xy, 4.0 * EPS, "m^2");
+    ASSERT_NEAR(fusion.P.yy, 1.0 + (double)way.Q.yy, 4.0 * EPS, "m^2");
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("step_ukf");
@@ -134,5 +154,6 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "truth", it_is_nearer_to_the_truth_than_linearisation, 5);
     suite_add(suite, "certain", certain_steps_are_those_of_linearisation);
     suite_add(suite, "doubt", no_doubt_gives_no_covariance);
+    suite_add(suite, "table", the_table_steps_by_it);
     return suite;
 }

@@ -28,6 +28,7 @@
 #include "insole/base/config.h"
 #include "insole/fuse/auto_start.h"
 #include "insole/fuse/step_filter.h"
+#include "insole/place/radio_map.h"
 #include "insole/track/phone_compass.h"
 
 #ifdef __cplusplus
@@ -122,6 +123,12 @@ insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_u
 /** @return INSOLE_ERR_NULL */
 insole_status_t insole_phone_place_answer(const insole_phone_place_t *place, uint64_t t_us,
                                           insole_phone_answer_t *answer);
+
+/** Where the walker is believed to be, once there is a filter.
+ *  @param sigmas, least_m  radius: so many 1-sigmas and so much more
+ *  @return false, and the area untouched, when he may be anywhere */
+bool insole_phone_place_area(const insole_phone_place_t *place, uint64_t t_us, insole_real_t sigmas,
+                             insole_real_t least_m, insole_trusted_area_t *area);
 
 #ifdef __cplusplus
 }

@@ -109,7 +109,8 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
 
 /** A scan. Its readings are copied; one still in work is given up.
  *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE without solver and map, or when too little is known of
- *          what was heard */
+ *          what was heard; INSOLE_ERR_TIME when it is a minute and more ahead of the samples that a
+ *          filter walks by */
 insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
                                           const insole_scan_t *scan);
 
@@ -121,7 +122,7 @@ bool insole_phone_tracker_work(insole_phone_tracker_t *tracker, uint32_t count);
  *  @return INSOLE_ERR_STATE when none is ready */
 insole_status_t insole_phone_tracker_next(insole_phone_tracker_t *tracker, insole_fix_t *fix);
 
-/** No more samples will come: the one that is held back becomes a fix. */
+/** No more samples will come: those that are held back become fixes, to be taken one by one. */
 insole_status_t insole_phone_tracker_finish(insole_phone_tracker_t *tracker);
 
 #ifdef __cplusplus
