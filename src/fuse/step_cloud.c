@@ -244,3 +244,54 @@ insole_status_t insole_step_cloud_answer(const insole_step_cloud_t *cloud,
     answer->waiting = insole_ring_count(&cloud->ring) + (is_idle(cloud) ? 0u : 1u);
     return INSOLE_OK;
 }
+
+/* ---- for a tracker ---------------------------------------------------------------------- */
+
+static insole_status_t begin_state(void *state, const insole_step_filter_begin_t *begin)
+{
+    if (!begin) {
+        return INSOLE_ERR_NULL;
+    }
+    const insole_step_origin_t origin = {
+        begin->t_us,      begin->spot, begin->cov_m2, begin->offset_rad, begin->var_offset_rad2,
+        begin->from_radio};
+    return insole_step_cloud_start(state, &origin);
+}
+
+static insole_status_t step_state(void *state, uint64_t t_us, const insole_pace_t *pace)
+{
+    (void)t_us;
+    return insole_step_cloud_step(state, pace);
+}
+
+static insole_status_t fix_state(void *state, const insole_spot_fix_t *fix)
+{
+    return insole_step_cloud_fix(state, fix);
+}
+
+static insole_status_t compass_state(void *state, insole_real_t offset_rad, insole_real_t sigma_rad)
+{
+    return insole_step_cloud_compass(state, offset_rad, sigma_rad);
+}
+
+static bool work_state(void *state, uint32_t particles)
+{
+    return insole_step_cloud_work(state, particles);
+}
+
+static insole_status_t answer_state(const void *state, insole_step_filter_answer_t *answer)
+{
+    insole_step_cloud_answer_t known;
+    if (!answer) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_status_t status = insole_step_cloud_answer(state, &known);
+    if (status == INSOLE_OK) {
+        *answer = (insole_step_filter_answer_t){known.spot, known.cov_m2, known.offset_rad,
+                                                known.var_offset_rad2, known.scale};
+    }
+    return status;
+}
+
+const insole_step_filter_calls_t insole_step_cloud_calls = {
+    begin_state, step_state, fix_state, compass_state, work_state, answer_state};

@@ -42,11 +42,17 @@ ROWS = {
     "ukf-told": ("ukf", TOLD),
     "ml-shift": ("ml-shift", AUTO),
     "ml-shift-told": ("ml-shift", TOLD),
+    "pf": ("pf", AUTO),
+    "pf-told": ("pf", TOLD),
+    "pf-kde": ("pf-kde", AUTO),
+    "pf-kde-told": ("pf-kde", TOLD),
     "best": ("best", AUTO),
     "best-told": ("best", TOLD),
+    "best-plan": ("best", PLAN + AUTO),
+    "best-plan-told": ("best", PLAN + TOLD),
 }
 STEPS_ALONE = ("pdr", "pdr-gyro")
-RANDOM = ("pf", "pf-kde", "wpf", "zee", "best-plan", "best-plan-told")
+RANDOM = ("pf", "pf-told", "pf-kde", "pf-kde-told", "best-plan", "best-plan-told")
 
 
 # ---- the recordings ----------------------------------------------------------------------
@@ -91,7 +97,7 @@ def arguments_of(walk, row, radiomap, seed):
     if method not in STEPS_ALONE:
         arguments += ["--radiomap", radiomap]
     if given.startswith(PLAN):
-        arguments += ["--plan", walk.folder / "plan.csv"]
+        arguments += ["--plan", walk.folder.parent / "plan.csv"]
     return arguments
 
 

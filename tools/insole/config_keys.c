@@ -45,8 +45,15 @@
     ROW(step_fusion, phone.step_fusion, kind, name, __VA_ARGS__)
 #define ML_SHIFT_ROW(kind, name, ...)   ROW(ml_shift, phone.ml_shift, kind, name, __VA_ARGS__)
 #define WALKER_EKF_ROW(kind, name, ...) ROW(walker_ekf, phone.walker_ekf, kind, name, __VA_ARGS__)
-#define KDE_FIX_ROW(kind, name, ...)    ROW(kde_fix, phone.kde_fix, kind, name, __VA_ARGS__)
-#define ML_FIX_ROW(kind, name, ...)     ROW(ml_fix, phone.ml_fix, kind, name, __VA_ARGS__)
+#define STEP_CLOUD_ROW(kind, name, ...) ROW(step_cloud, phone.step_cloud, kind, name, __VA_ARGS__)
+#define STEP_CLOUD_PARTICLES_ROW(kind, name, ...)                                                  \
+    ROW(step_cloud, phone.step_cloud.particles, kind, name, __VA_ARGS__)
+#define PLAIN_CLOUD_ROW(kind, name, ...)                                                           \
+    ROW(plain_cloud, phone.plain_cloud, kind, name, __VA_ARGS__)
+#define PLAIN_CLOUD_PARTICLES_ROW(kind, name, ...)                                                 \
+    ROW(plain_cloud, phone.plain_cloud.particles, kind, name, __VA_ARGS__)
+#define KDE_FIX_ROW(kind, name, ...) ROW(kde_fix, phone.kde_fix, kind, name, __VA_ARGS__)
+#define ML_FIX_ROW(kind, name, ...)  ROW(ml_fix, phone.ml_fix, kind, name, __VA_ARGS__)
 
 /* clang-format off */
 static const config_key_t keys[] = {
@@ -74,6 +81,10 @@ static const config_key_t keys[] = {
     INSOLE_STEP_FUSION_KEYS(STEP_FUSION_ROW)
     INSOLE_ML_SHIFT_KEYS(ML_SHIFT_ROW)
     INSOLE_WALKER_EKF_KEYS(WALKER_EKF_ROW)
+    INSOLE_STEP_CLOUD_KEYS(STEP_CLOUD_ROW)
+    INSOLE_PARTICLE_FILTER_KEYS(STEP_CLOUD_PARTICLES_ROW)
+    INSOLE_STEP_CLOUD_KEYS(PLAIN_CLOUD_ROW)
+    INSOLE_PARTICLE_FILTER_KEYS(PLAIN_CLOUD_PARTICLES_ROW)
     INSOLE_KDE_FIX_KEYS(KDE_FIX_ROW)
     INSOLE_ML_FIX_KEYS(ML_FIX_ROW)
 };

@@ -20,7 +20,9 @@ static const char *const names[METHODS] = {[METHOD_BEST] = "best",
                                            [METHOD_KF_CONST] = "kf-const",
                                            [METHOD_EKF_CONST] = "ekf-const",
                                            [METHOD_UKF_CONST] = "ukf-const",
-                                           [METHOD_ML_SHIFT] = "ml-shift"};
+                                           [METHOD_ML_SHIFT] = "ml-shift",
+                                           [METHOD_PF] = "pf",
+                                           [METHOD_PF_KDE] = "pf-kde"};
 
 bool tracker_parse(const char *name, tracker_t *tracker, failure_t *failure)
 {

@@ -31,13 +31,16 @@ typedef enum {
     METHOD_EKF_CONST,
     METHOD_UKF_CONST,
     METHOD_ML_SHIFT, /**< [WifiShift] */
+    METHOD_PF,       /**< rivals of [PhoneEKF] 4: particles weighed by the strengths heard */
+    METHOD_PF_KDE,   /**< or by the fix of kernels and its covariance */
     METHODS
 } method_t;
 
 /** For help. */
 #define METHOD_FOOT_NAMES "ins, pdr, wifi, two-order or best"
 #define METHOD_PHONE_NAMES                                                                         \
-    "pdr-gyro, pdr, wifi-kde, wifi-ml, ekf, ukf, kf-const, ekf-const, ukf-const, ml-shift or best"
+    "pdr-gyro, pdr, wifi-kde, wifi-ml, ekf, ukf, kf-const, ekf-const, ukf-const, ml-shift, pf,\n"  \
+    "pf-kde or best"
 
 bool tracker_parse(const char *name, tracker_t *tracker, failure_t *failure);
 

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "phone_parts.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "insole/fuse/step_ekf.h"
 #include "insole/fuse/step_ukf.h"
 #include "insole/move/attitude_ekf.h"
 #include "insole/move/attitude_ukf.h"
+
+#include "memory.h"
 
 /* What a method is made of; NULL: it has no such part. */
 typedef struct {
@@ -16,11 +19,12 @@ typedef struct {
     bool is_constant; /* covariances */
 } recipe_t;
 
-static recipe_t recipe_of(method_t method)
+static recipe_t recipe_of(method_t method, bool has_plan)
 {
+    const insole_step_filter_calls_t *best =
+        has_plan ? &insole_step_cloud_calls : &insole_walker_ekf_calls;
     const recipe_t recipes[METHODS] = {
-        [METHOD_PHONE_BEST] = {insole_attitude_ekf, &insole_kde_fix_calls, &insole_walker_ekf_calls,
-                               false},
+        [METHOD_PHONE_BEST] = {insole_attitude_ekf, &insole_kde_fix_calls, best, false},
         [METHOD_PHONE_PDR] = {insole_attitude_ekf, NULL, &insole_step_ekf_calls, false},
         [METHOD_PDR_GYRO] = {NULL, NULL, &insole_step_ekf_calls, false},
         [METHOD_WIFI_KDE] = {insole_attitude_ekf, &insole_kde_fix_calls, NULL, false},
@@ -34,22 +38,62 @@ static recipe_t recipe_of(method_t method)
         [METHOD_UKF_CONST] = {insole_attitude_ukf, &insole_kde_fix_calls, &insole_step_ukf_calls,
                               true},
         [METHOD_ML_SHIFT] = {insole_attitude_ekf, &insole_kde_fix_calls, &insole_ml_shift_calls,
-                             false}};
+                             false},
+        [METHOD_PF] = {insole_attitude_ekf, &phone_rival_solver, &phone_rival_filter, false},
+        [METHOD_PF_KDE] = {insole_attitude_ekf, &insole_kde_fix_calls, &insole_step_cloud_calls,
+                           false}};
     return recipes[method];
 }
 
-static bool set_up_solver(phone_parts_t *parts, const phone_settings_t *settings,
-                          const insole_radio_solver_calls_t *calls)
+static bool is_cloud(const recipe_t *recipe)
 {
-    bool is_ml = calls == &insole_ml_fix_calls;
-    parts->library.solver.calls = calls;
-    parts->library.solver.state = is_ml ? (void *)&parts->ml_fix : (void *)&parts->kde_fix;
-    return insole_kde_fix_init(&parts->kde_fix, &settings->kde_fix) == INSOLE_OK &&
-           insole_ml_fix_init(&parts->ml_fix, &settings->ml_fix) == INSOLE_OK;
+    return recipe->filter == &insole_step_cloud_calls || recipe->filter == &phone_rival_filter;
 }
 
-static void *state_of(phone_parts_t *parts, const insole_step_filter_calls_t *calls)
+/* ---- particles -------------------------------------------------------------------------- */
+
+static void lend_memory(phone_parts_t *parts, uint32_t particles)
 {
+    insole_cloud_t *memory = &parts->memory;
+    memory->count = particles;
+    memory->particles = memory_new(particles, sizeof *memory->particles);
+    memory->bias = memory_new(particles, sizeof *memory->bias);
+}
+
+static bool set_up_cloud(phone_parts_t *parts, const estimator_setup_t *setup)
+{
+    const phone_settings_t *settings = &setup->settings->phone;
+    bool is_rival = setup->method == METHOD_PF || setup->method == METHOD_PF_KDE;
+    const insole_floor_plan_t *plan =
+        setup->building != NULL && !is_rival ? setup->building->plan : NULL;
+    lend_memory(parts, setup->particles > 0u ? setup->particles
+                       : is_rival            ? (uint32_t)PHONE_RIVAL_PARTICLES
+                                             : (uint32_t)PHONE_PARTICLES);
+    phone_rival_init(&parts->rival, &parts->kde_fix, &parts->step_cloud,
+                     parts->map != NULL ? parts->map->point_count : 0u);
+    return insole_step_cloud_init(&parts->step_cloud,
+                                  is_rival ? &settings->plain_cloud : &settings->step_cloud,
+                                  &parts->memory, plan, setup->seed) == INSOLE_OK;
+}
+
+/* ---- states ----------------------------------------------------------------------------- */
+
+static void *solver_state(phone_parts_t *parts, const insole_radio_solver_calls_t *calls)
+{
+    if (calls == &phone_rival_solver) {
+        return &parts->rival;
+    }
+    return calls == &insole_ml_fix_calls ? (void *)&parts->ml_fix : (void *)&parts->kde_fix;
+}
+
+static void *filter_state(phone_parts_t *parts, const insole_step_filter_calls_t *calls)
+{
+    if (calls == &phone_rival_filter) {
+        return &parts->rival;
+    }
+    if (calls == &insole_step_cloud_calls) {
+        return &parts->step_cloud;
+    }
     if (calls == &insole_ml_shift_calls) {
         return &parts->ml_shift;
     }
@@ -57,16 +101,15 @@ static void *state_of(phone_parts_t *parts, const insole_step_filter_calls_t *ca
                                              : (void *)&parts->step_fusion;
 }
 
-static bool set_up_filter(phone_parts_t *parts, const phone_settings_t *settings,
-                          const recipe_t *recipe)
+static bool set_up_states(phone_parts_t *parts, const phone_settings_t *settings, bool is_constant)
 {
     insole_step_fusion_config_t fusion = settings->step_fusion;
-    if (recipe->is_constant) {
+    if (is_constant) {
         fusion.process = fusion.measurement = INSOLE_STEP_CONSTANT;
     }
-    parts->library.filter.calls = recipe->filter;
-    parts->library.filter.state = state_of(parts, recipe->filter);
-    return insole_step_fusion_init(&parts->step_fusion, &fusion) == INSOLE_OK &&
+    return insole_kde_fix_init(&parts->kde_fix, &settings->kde_fix) == INSOLE_OK &&
+           insole_ml_fix_init(&parts->ml_fix, &settings->ml_fix) == INSOLE_OK &&
+           insole_step_fusion_init(&parts->step_fusion, &fusion) == INSOLE_OK &&
            insole_ml_shift_init(&parts->ml_shift, &settings->ml_shift) == INSOLE_OK &&
            insole_walker_ekf_init(&parts->walker_ekf, &settings->walker_ekf) == INSOLE_OK;
 }
@@ -74,18 +117,25 @@ static bool set_up_filter(phone_parts_t *parts, const phone_settings_t *settings
 bool phone_parts_init(phone_parts_t *parts, const estimator_setup_t *setup)
 {
     const phone_settings_t *settings = &setup->settings->phone;
-    const recipe_t recipe = recipe_of(setup->method);
+    bool has_plan = setup->building != NULL && setup->building->plan != NULL;
+    const recipe_t recipe = recipe_of(setup->method, has_plan);
     memset(parts, 0, sizeof *parts);
     parts->config = settings->tracker;
     parts->config.screen = setup->settings->fusion.foot.screen;
     parts->config.still_bias = setup->settings->fusion.foot.still_bias;
-    parts->library.attitude = recipe.attitude;
     parts->map = recipe.solver != NULL ? setup->map : NULL;
-    return set_up_solver(parts, settings, parts->map != NULL ? recipe.solver : NULL) &&
-           set_up_filter(parts, settings, &recipe);
+    parts->library.attitude = recipe.attitude;
+    parts->library.solver.calls = parts->map != NULL ? recipe.solver : NULL;
+    parts->library.solver.state = solver_state(parts, recipe.solver);
+    parts->library.filter.calls = recipe.filter;
+    parts->library.filter.state = filter_state(parts, recipe.filter);
+    return set_up_states(parts, settings, recipe.is_constant) &&
+           (!is_cloud(&recipe) || set_up_cloud(parts, setup));
 }
 
 void phone_parts_free(phone_parts_t *parts)
 {
-    (void)parts;
+    free(parts->memory.particles);
+    free(parts->memory.bias);
+    phone_rival_free(&parts->rival);
 }

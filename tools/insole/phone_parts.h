@@ -4,12 +4,15 @@
  *      insole_phone_tracker_init(&tracker, &parts.config, &parts.library, parts.map);
  *      phone_parts_free(&parts);
  *
+ *  `best` is a cloud of particles where a plan is known, and else the filter of six states.
+ *
  *  SPDX-License-Identifier: MIT
  */
 #ifndef INSOLE_HOST_PHONE_PARTS_H
 #define INSOLE_HOST_PHONE_PARTS_H
 
 #include "insole/fuse/ml_shift.h"
+#include "insole/fuse/step_cloud.h"
 #include "insole/fuse/step_fusion.h"
 #include "insole/fuse/walker_ekf.h"
 #include "insole/place/kde_fix.h"
@@ -17,6 +20,10 @@
 #include "insole/track/phone_tracker.h"
 
 #include "estimator_setup.h"
+#include "phone_rival.h"
+
+/** Particles where nobody tells: the paper's rivals have more. */
+enum { PHONE_PARTICLES = 500, PHONE_RIVAL_PARTICLES = 1000 };
 
 /** States of all parts; those in use are pointed at. It stays where it is. */
 typedef struct {
@@ -26,6 +33,9 @@ typedef struct {
     insole_step_fusion_t step_fusion;
     insole_ml_shift_t ml_shift;
     insole_walker_ekf_t walker_ekf;
+    insole_step_cloud_t step_cloud;
+    insole_cloud_t memory; /**< lent to it; no particles: the method has none */
+    phone_rival_t rival;
     insole_kde_fix_t kde_fix;
     insole_ml_fix_t ml_fix;
 } phone_parts_t;

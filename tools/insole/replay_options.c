@@ -89,7 +89,8 @@ static bool apply_use(const arguments_t *arguments, replay_request_t *request, f
 
 static bool apply_cloud(const arguments_t *arguments, replay_request_t *request, failure_t *failure)
 {
-    int64_t seed = 1, particles = REPLAY_PARTICLES;
+    bool is_phone = request->tracker == TRACKER_PHONE; /* whose methods have numbers of their own */
+    int64_t seed = 1, particles = is_phone ? 0 : REPLAY_PARTICLES;
     double lag_s = (double)request->settings.fusion.lag_s;
     if (!options_whole(arguments, "seed", 0, INT64_MAX, &seed, failure) ||
         !options_whole(arguments, "particles", 1, INSOLE_CLOUD_PARTICLES_MAX, &particles,

@@ -12,6 +12,8 @@ void settings_init(settings_t *settings)
     settings->phone.step_fusion = insole_step_fusion_defaults;
     settings->phone.ml_shift = insole_ml_shift_defaults;
     settings->phone.walker_ekf = insole_walker_ekf_defaults;
+    settings->phone.step_cloud = insole_step_cloud_defaults;
+    settings->phone.plain_cloud = insole_step_cloud_plain;
     settings->phone.kde_fix = insole_kde_fix_defaults;
     settings->phone.ml_fix = insole_ml_fix_defaults;
 }

@@ -6,6 +6,7 @@
 #define INSOLE_HOST_SETTINGS_H
 
 #include "insole/fuse/ml_shift.h"
+#include "insole/fuse/step_cloud.h"
 #include "insole/fuse/step_fusion.h"
 #include "insole/fuse/walker_ekf.h"
 #include "insole/place/kde_fix.h"
@@ -40,6 +41,8 @@ typedef struct {
     insole_step_fusion_config_t step_fusion;
     insole_ml_shift_config_t ml_shift;
     insole_walker_ekf_config_t walker_ekf;
+    insole_step_cloud_config_t step_cloud;
+    insole_step_cloud_config_t plain_cloud; /**< of the rivals */
     insole_kde_fix_config_t kde_fix;
     insole_ml_fix_config_t ml_fix;
 } phone_settings_t;

@@ -32,6 +32,7 @@
 
 #include "insole/base/ring.h"
 #include "insole/fuse/particle_filter.h"
+#include "insole/fuse/step_filter.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -141,6 +142,9 @@ bool insole_step_cloud_work(insole_step_cloud_t *cloud, uint32_t particles);
  *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE before the cloud is drawn */
 insole_status_t insole_step_cloud_answer(const insole_step_cloud_t *cloud,
                                          insole_step_cloud_answer_t *answer);
+
+/** For a tracker; the state is an `insole_step_cloud_t`. */
+extern const insole_step_filter_calls_t insole_step_cloud_calls;
 
 #ifdef __cplusplus
 }
