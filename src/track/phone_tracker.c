@@ -223,8 +223,8 @@ static void cross_gap(insole_phone_tracker_t *t, uint64_t t_us)
         t->counts.gaps++;
         t->coasting = true;
         insole_phone_compass_forget(&t->compass);
+        t->place.sight = insole_phone_compass_sight(&t->compass);
         if (has_filter(&t->parts)) {
-            t->place.sight = insole_phone_compass_sight(&t->compass);
             (void)insole_phone_place_gap(&t->place, t_us, gap_s);
         }
     }
@@ -316,9 +316,7 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
     insole_phone_compass_t *compass = &tracker->compass;
     bool is_new =
         insole_phone_compass_push(compass, mag->t_us, insole_vec3_norm(mag->field_ut), azimuth_rad);
-    if (has_filter(&tracker->parts)) {
-        tracker->place.sight = insole_phone_compass_sight(compass);
-    }
+    tracker->place.sight = insole_phone_compass_sight(compass);
     if (is_new && has_filter(&tracker->parts)) {
         (void)insole_phone_place_compass(&tracker->place);
     }
@@ -344,10 +342,11 @@ static void use_fix(insole_phone_tracker_t *t)
     (void)insole_phone_place_fix(&t->place, &fix);
 }
 
-/* The filter would take no fix of an earlier time after it. */
-static bool is_far_ahead(const insole_phone_tracker_t *t, uint64_t t_us)
+/* After one ahead the filter takes none of before; of one long ago the way since is forgotten. */
+static bool is_in_time(const insole_phone_tracker_t *t, uint64_t t_us)
 {
-    return has_filter(&t->parts) && t->has_time && t_us > t->t_us && t_us - t->t_us > SCAN_AHEAD_US;
+    bool is_ahead = t->has_time && t_us > t->t_us && t_us - t->t_us > SCAN_AHEAD_US;
+    return !has_filter(&t->parts) || (!is_ahead && insole_phone_way_reaches(&t->way, t_us));
 }
 
 insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
@@ -356,7 +355,7 @@ insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
     if (!tracker) {
         return INSOLE_ERR_NULL;
     }
-    if (scan && is_far_ahead(tracker, scan->t_us)) {
+    if (scan && !is_in_time(tracker, scan->t_us)) {
         return answer(tracker, INSOLE_ERR_TIME);
     }
     insole_trusted_area_t area;

@@ -109,8 +109,8 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
 
 /** A scan. Its readings are copied; one still in work is given up.
  *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE without solver and map, or when too little is known of
- *          what was heard; INSOLE_ERR_TIME when it is a minute and more ahead of the samples that a
- *          filter walks by */
+ *          what was heard; with a filter INSOLE_ERR_TIME for one that is a minute and more
+ *          ahead of the samples, or older than the last 16 steps */
 insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
                                           const insole_scan_t *scan);
 
