@@ -434,7 +434,7 @@ START_TEST(trackers_of_nothing_are_refused)
     lacking.solver.state = NULL;
     ASSERT_UNCHANGED(rig, insole_phone_tracker_init(&rig.phone, &config, &lacking, &prints.map),
                      INSOLE_ERR_VALUE);
-    config.step.low_pass_hz = (insole_real_t)NAN;
+    config.walk.step.low_pass_hz = (insole_real_t)NAN;
     ASSERT_UNCHANGED(rig, insole_phone_tracker_init(&rig.phone, &config, &parts, &prints.map),
                      INSOLE_ERR_VALUE);
     ck_assert_int_eq(insole_phone_tracker_init(&rig.phone, &c.config, &none, &prints.map),
