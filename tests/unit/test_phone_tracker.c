@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/phone_tracker.h"
 
-#include "phone_walk.h"
+#include "hand_walk.h"
 #include "suite.h"
 
 /* One step more or less at either end of a walk, and half of one that is under way. */

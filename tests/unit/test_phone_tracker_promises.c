@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
+#include "hand_walk.h"
 #include "insole/base/snapshot.h"
 #include "insole/track/phone_tracker.h"
-#include "phone_walk.h"
 #include "refusal.h"
 #include "suite.h"
 
