@@ -159,7 +159,6 @@ typedef struct {
 
 static insole_fix_t fixes[HAND_SAMPLES];
 static uint32_t fix_count;
-static rig_t rig;
 
 static inline insole_start_t start_of(const hand_t *hand, bool has_heading)
 {
