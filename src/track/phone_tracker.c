@@ -69,7 +69,7 @@ insole_status_t insole_phone_tracker_start(insole_phone_tracker_t *tracker,
 static void direct_start(insole_phone_tracker_t *t)
 {
     const insole_phone_walk_t *walk = &t->walk;
-    if (insole_spot_dot(walk->shown, walk->shown) > ZERO &&
+    if (insole_spot_dot(walk->shown, walk->shown) > ZERO && insole_phone_walk_is_directed(walk) &&
         insole_phone_place_wants_direction(&t->place, walk->shown_end_us)) {
         (void)insole_phone_place_direct(&t->place, walk->shown_end_us,
                                         insole_atan2(walk->shown.y_m, walk->shown.x_m));
