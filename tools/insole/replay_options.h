@@ -11,7 +11,7 @@
 /* clang-format off */
 /** Rows of an option_t list. */
 #define REPLAY_OPTIONS                                                                            \
-    {"tracker", "foot|phone", "where the sensor is: on the shoe (default), or in a phone that the\n"\
+    {"tracker", "foot|phone", "where the sensor is: on the shoe (default), or in a phone the\n"   \
      "walker carries"},                                                                           \
     {"plan", "FILE", "floor plan: its walls hold the track; a folder that is replayed may bring\n"\
      "its own plan.csv, aps.csv and radiomap.csv"},                                               \
