@@ -98,6 +98,7 @@
 #include "insole/track/phone_place.h"
 #include "insole/track/phone_radio.h"
 #include "insole/track/phone_tracker.h"
+#include "insole/track/phone_walk.h"
 #include "insole/track/phone_way.h"
 
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/sense/carry.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 
 const insole_carry_config_t insole_carry_defaults = {INSOLE_CARRY_KEYS(INSOLE_CONFIG_DEFAULT)};
@@ -13,8 +15,7 @@ insole_status_t insole_carry_init(insole_carry_t *carry, const insole_carry_conf
     if (!(true INSOLE_CARRY_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_carry_t blank;
-    *carry = blank;
+    memset(carry, 0, sizeof *carry);
     carry->config = *config;
     carry->told = carry->candidate = INSOLE_CARRY_NONE;
     return insole_carry_window_init(&carry->window, config->gravity_s);

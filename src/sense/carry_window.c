@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/sense/carry_window.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -28,8 +30,7 @@ insole_status_t insole_carry_window_init(insole_carry_window_t *window, insole_r
     if (!(gravity_s >= INSOLE_R(0.05) && gravity_s <= INSOLE_R(100.0))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_carry_window_t blank;
-    *window = blank;
+    memset(window, 0, sizeof *window); /* a blank one to copy would take 2 KB of flash */
     window->gravity_s = gravity_s;
     return INSOLE_OK;
 }
@@ -235,7 +236,7 @@ insole_status_t insole_carry_window_next(insole_carry_window_t *window,
     }
     insole_vec3_t blocks[BLOCKS];
     insole_real_t *value = features->value;
-    for (uint32_t k = 0u; k < INSOLE_CARRY_SERIES; k++) {
+    for (size_t k = 0u; k < INSOLE_CARRY_SERIES; k++) {
         describe(full_half(window, 2u)->sorted[k], full_half(window, 1u)->sorted[k],
                  &value[k * INSOLE_CARRY_STATISTICS], &value[INSOLE_CARRY_SKEWNESS + k]);
     }

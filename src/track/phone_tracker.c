@@ -3,13 +3,9 @@
 
 #include <stddef.h>
 
-#include "insole/move/heading.h"
 #include "insole/move/magnetic.h"
 
 #define ZERO INSOLE_R(0.0)
-
-/* A peak without one before it has no duration yet. */
-static const uint64_t LONGEST_STEP_US = 1000000u;
 
 /* A scan so far ahead of the samples has a stamp that cannot be. */
 static const uint64_t SCAN_AHEAD_US = 60000000u;
@@ -33,6 +29,10 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
         (!has_filter(parts) && !insole_phone_radio_can_hear(&radio))) {
         return INSOLE_ERR_VALUE;
     }
+    insole_phone_walk_t walk;
+    if (insole_phone_walk_init(&walk, &config->walk, &parts->gait) != INSOLE_OK) {
+        return INSOLE_ERR_VALUE;
+    }
     insole_phone_place_t place = {.starts = 0u};
     if (has_filter(parts) &&
         insole_phone_place_init(&place, &config->place, &config->auto_start, &parts->filter,
@@ -40,13 +40,11 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
         return INSOLE_ERR_VALUE;
     }
     *tracker = (insole_phone_tracker_t){
-        .config = *config, .parts = *parts, .radio = radio, .place = place};
+        .config = *config, .parts = *parts, .walk = walk, .radio = radio, .place = place};
     (void)insole_screen_init(&tracker->screen, &config->screen);
     (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
     (void)insole_attitude_init(&tracker->attitude, &config->attitude);
-    (void)insole_step_init(&tracker->steps, &config->step);
-    (void)insole_phone_compass_init(&tracker->compass, &config->compass);
-    return insole_phone_way_init(&tracker->way);
+    return insole_phone_compass_init(&tracker->compass, &config->compass);
 }
 
 static insole_status_t answer(insole_phone_tracker_t *t, insole_status_t status)
@@ -68,76 +66,33 @@ insole_status_t insole_phone_tracker_start(insole_phone_tracker_t *tracker,
 
 /* ---- steps ------------------------------------------------------------------------------ */
 
-static bool pace_of(const insole_phone_tracker_t *t, const insole_footfall_t *footfall,
-                    insole_pace_t *pace)
+/* The first that are shown have the direction of a start: should they prove to be no steps, the
+ * phone was carried there all the same. */
+static void direct_start(insole_phone_tracker_t *t)
 {
-    if (insole_step_length(&t->config.step_length, footfall, &pace->length_m) != INSOLE_OK ||
-        insole_phone_way_direction(&t->way, footfall, &pace->heading_rad) != INSOLE_OK) {
-        return false;
-    }
-    pace->var_length_m2 = insole_square(t->config.sigma_length_share * pace->length_m);
-    pace->var_heading_rad2 = t->yaw_rad2 + insole_square(t->config.sigma_ahead_rad);
-    return true;
-}
-
-static void take_footfall(insole_phone_tracker_t *t, const insole_footfall_t *footfall)
-{
-    insole_pace_t pace;
-    if (!pace_of(t, footfall, &pace)) {
-        return;
-    }
-    (void)insole_phone_way_go(&t->way, footfall, insole_pace_way(&pace, ZERO));
-    t->coasting = false;
-    t->counts.steps++;
-    if (has_filter(&t->parts)) {
-        (void)insole_phone_place_step(&t->place, footfall->end_us, &pace);
-    }
-}
-
-/* The way up to a time of the steps that are shown and not yet told, n. */
-static insole_spot_t held_way(const insole_phone_tracker_t *t, uint64_t until_us)
-{
-    insole_spot_t sum = {ZERO, ZERO};
-    insole_footfall_t footfall;
-    insole_pace_t pace;
-    bool shows = t->steps.held >= (uint32_t)t->config.shown_steps;
-    for (uint32_t i = 0u; shows && insole_step_held(&t->steps, i, &footfall) == INSOLE_OK; i++) {
-        if (footfall.end_us - footfall.begin_us > LONGEST_STEP_US) {
-            footfall.begin_us = footfall.end_us - LONGEST_STEP_US;
-        }
-        if (pace_of(t, &footfall, &pace)) {
-            sum = insole_spot_add_scaled(sum, insole_phone_way_share(&footfall, until_us),
-                                         insole_pace_way(&pace, ZERO));
-        }
-    }
-    return sum;
-}
-
-/* Anew only when peaks have come or gone. The first that are shown have the direction of a start:
- * should they prove to be no steps, the phone pointed there all the same. */
-static void show_held(insole_phone_tracker_t *t)
-{
-    if (t->steps.held == t->shown_count && t->steps.last_us == t->shown_end_us) {
-        return;
-    }
-    t->shown = held_way(t, UINT64_MAX);
-    t->shown_count = t->steps.held;
-    t->shown_end_us = t->steps.last_us;
-    if (has_filter(&t->parts) && insole_spot_dot(t->shown, t->shown) > ZERO &&
-        insole_phone_place_wants_direction(&t->place, t->shown_end_us)) {
-        (void)insole_phone_place_direct(&t->place, t->shown_end_us,
-                                        insole_atan2(t->shown.y_m, t->shown.x_m));
+    const insole_phone_walk_t *walk = &t->walk;
+    if (insole_spot_dot(walk->shown, walk->shown) > ZERO &&
+        insole_phone_place_wants_direction(&t->place, walk->shown_end_us)) {
+        (void)insole_phone_place_direct(&t->place, walk->shown_end_us,
+                                        insole_atan2(walk->shown.y_m, walk->shown.x_m));
     }
 }
 
 static void count_steps(insole_phone_tracker_t *t, const insole_imu_t *imu)
 {
     insole_footfall_t footfall;
-    (void)insole_step_push(&t->steps, imu->t_us, imu->accel_mps2);
-    while (insole_step_next(&t->steps, &footfall) == INSOLE_OK) {
-        take_footfall(t, &footfall);
+    insole_pace_t pace;
+    (void)insole_phone_walk_push(&t->walk, &t->attitude, imu);
+    while (insole_phone_walk_next(&t->walk, &footfall, &pace) == INSOLE_OK) {
+        t->coasting = false;
+        t->counts.steps++;
+        if (has_filter(&t->parts)) {
+            (void)insole_phone_place_step(&t->place, footfall.end_us, &pace);
+        }
     }
-    show_held(t);
+    if (has_filter(&t->parts)) {
+        direct_start(t);
+    }
 }
 
 /* ---- the fix ---------------------------------------------------------------------------- */
@@ -170,10 +125,10 @@ static insole_real_t offset_of(const insole_phone_tracker_t *t, const insole_pho
     if (known->knowledge != INSOLE_PHONE_TOLD || !t->place.start.has_heading) {
         return ZERO;
     }
-    insole_turn_t from = t->ahead;
-    if (insole_spot_dot(t->shown, t->shown) > ZERO) {
-        from.cos = t->shown.x_m;
-        from.sin = t->shown.y_m;
+    insole_turn_t from = insole_phone_walk_ahead(&t->walk);
+    if (insole_spot_dot(t->walk.shown, t->walk.shown) > ZERO) {
+        from.cos = t->walk.shown.x_m;
+        from.sin = t->walk.shown.y_m;
     }
     return insole_wrap_pi(t->place.start.heading_rad - insole_atan2(from.sin, from.cos));
 }
@@ -185,16 +140,17 @@ static void fix_by_filter(insole_phone_tracker_t *t, insole_fix_t *fix)
     insole_real_t offset_rad = offset_of(t, &known);
     insole_spot_t spot = known.at.spot;
     if (known.knowledge != INSOLE_PHONE_NOWHERE) {
-        insole_spot_t shown = insole_turn_way(insole_turn(offset_rad), t->shown);
+        insole_spot_t shown = insole_turn_way(insole_turn(offset_rad), t->walk.shown);
         spot = insole_spot_add_scaled(spot, known.at.scale, shown);
     }
     fix->position_m = insole_vec3(spot.x_m, spot.y_m, ZERO);
-    fix->heading_rad = insole_wrap_pi(insole_atan2(t->ahead.sin, t->ahead.cos) + offset_rad);
+    insole_turn_t ahead = insole_phone_walk_ahead(&t->walk);
+    fix->heading_rad = insole_wrap_pi(insole_atan2(ahead.sin, ahead.cos) + offset_rad);
     fix->var_x_m2 = known.at.cov_m2.xx;
     fix->cov_xy_m2 = known.at.cov_m2.xy;
     fix->var_y_m2 = known.at.cov_m2.yy;
     fix->var_heading_rad2 =
-        insole_min(t->yaw_rad2 + known.at.var_offset_rad2, INSOLE_HEADING_MOST_R2);
+        insole_min(t->walk.yaw_rad2 + known.at.var_offset_rad2, INSOLE_HEADING_MOST_R2);
     fix->state = state_of(t, &known);
 }
 
@@ -223,8 +179,8 @@ static void cross_gap(insole_phone_tracker_t *t, uint64_t t_us)
         t->counts.gaps++;
         t->coasting = true;
         insole_phone_compass_forget(&t->compass);
+        t->place.sight = insole_phone_compass_sight(&t->compass);
         if (has_filter(&t->parts)) {
-            t->place.sight = insole_phone_compass_sight(&t->compass);
             (void)insole_phone_place_gap(&t->place, t_us, gap_s);
         }
     }
@@ -240,13 +196,6 @@ static void face(insole_phone_tracker_t *t, const insole_clean_t *clean)
     }
     (void)insole_attitude_push(&t->attitude, t->parts.attitude, &clean->imu,
                                clean->marks & INSOLE_MARK_CLIP);
-    if (t->attitude.aligned) {
-        insole_sym3_t P = insole_attitude_covariance(&t->attitude);
-        insole_heading_t heading = insole_heading(t->attitude.q, &P);
-        t->ahead = heading.ahead;
-        t->yaw_rad2 = heading.variance_rad2;
-        (void)insole_phone_way_face(&t->way, clean->imu.t_us, heading.ahead);
-    }
 }
 
 static void take_clean(insole_phone_tracker_t *t, const insole_clean_t *clean)
@@ -316,9 +265,7 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
     insole_phone_compass_t *compass = &tracker->compass;
     bool is_new =
         insole_phone_compass_push(compass, mag->t_us, insole_vec3_norm(mag->field_ut), azimuth_rad);
-    if (has_filter(&tracker->parts)) {
-        tracker->place.sight = insole_phone_compass_sight(compass);
-    }
+    tracker->place.sight = insole_phone_compass_sight(compass);
     if (is_new && has_filter(&tracker->parts)) {
         (void)insole_phone_place_compass(&tracker->place);
     }
@@ -327,12 +274,6 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
 
 /* ---- radio ------------------------------------------------------------------------------ */
 
-/* The way since the scan was heard, up to the last step that was told. */
-static insole_spot_t way_since(const insole_phone_tracker_t *t, uint64_t heard_us)
-{
-    return insole_spot_sub(insole_phone_way_since(&t->way, heard_us), held_way(t, heard_us));
-}
-
 static void use_fix(insole_phone_tracker_t *t)
 {
     const insole_radio_fix_t *told = &t->radio.fix;
@@ -340,14 +281,15 @@ static void use_fix(insole_phone_tracker_t *t)
     insole_spot_fix_t fix = {
         t->radio.t_us, told->spot,
         insole_sym2(told->var_x_m2 + more_m2, told->cov_xy_m2, told->var_y_m2 + more_m2),
-        way_since(t, t->radio.heard_us)};
+        insole_phone_walk_since(&t->walk, t->radio.heard_us)};
     (void)insole_phone_place_fix(&t->place, &fix);
 }
 
-/* The filter would take no fix of an earlier time after it. */
-static bool is_far_ahead(const insole_phone_tracker_t *t, uint64_t t_us)
+/* After one ahead the filter takes none of before; of one long ago the way since is forgotten. */
+static bool is_in_time(const insole_phone_tracker_t *t, uint64_t t_us)
 {
-    return has_filter(&t->parts) && t->has_time && t_us > t->t_us && t_us - t->t_us > SCAN_AHEAD_US;
+    bool is_ahead = t->has_time && t_us > t->t_us && t_us - t->t_us > SCAN_AHEAD_US;
+    return !has_filter(&t->parts) || (!is_ahead && insole_phone_way_reaches(&t->walk.way, t_us));
 }
 
 insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
@@ -356,7 +298,7 @@ insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
     if (!tracker) {
         return INSOLE_ERR_NULL;
     }
-    if (scan && is_far_ahead(tracker, scan->t_us)) {
+    if (scan && !is_in_time(tracker, scan->t_us)) {
         return answer(tracker, INSOLE_ERR_TIME);
     }
     insole_trusted_area_t area;
@@ -377,6 +319,9 @@ bool insole_phone_tracker_work(insole_phone_tracker_t *tracker, uint32_t count)
         if (insole_phone_radio_take(&tracker->radio) && has_filter(&tracker->parts)) {
             use_fix(tracker);
         }
+        return true;
+    }
+    if (insole_phone_walk_work(&tracker->walk)) {
         return true;
     }
     const insole_step_filter_t *filter = &tracker->parts.filter;

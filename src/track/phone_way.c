@@ -162,3 +162,9 @@ insole_spot_t insole_phone_way_since(const insole_phone_way_t *way, uint64_t t_u
     }
     return sum;
 }
+
+bool insole_phone_way_reaches(const insole_phone_way_t *way, uint64_t t_us)
+{
+    uint32_t oldest = insole_ring_slot(&way->ring, way->ring.begin);
+    return !insole_ring_is_full(&way->ring) || way->steps[oldest].begin_us <= t_us;
+}

@@ -84,7 +84,7 @@ printf 'imu,0,1,2\n' >bad.csv
 
 run --version; status_is 0; has out 'insole '; empty err
 run --help; status_is 0; empty err
-for command in replay score compare calibrate config plan pack radiomap; do
+for command in replay score compare calibrate config plan pack radiomap train-carry; do
     has out "  $command "
     run "$command" --help; status_is 0; empty err; has out "insole $command"; has out 'Options'
     run help "$command"; status_is 0; has out "insole $command"
@@ -97,7 +97,7 @@ refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' xyzzy
 refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' help xyzzy
 
 # No line of help is too wide for a terminal of 100 columns.
-for command in replay score compare calibrate config plan pack radiomap files; do
+for command in replay score compare calibrate config plan pack radiomap train-carry files; do
     run help "$command"
     [ "$(awk 'length > 100' out | wc -l)" -eq 0 ] || fail 'lines of more than 100 columns'
 done
@@ -567,6 +567,52 @@ cmp -s with.csv without.csv || fail 'the foot took the map'
 refuses 1 'absent.csv: cannot open: No such file or directory' replay walk.csv --radiomap absent.csv
 refuses 2 'insole replay: --out surveyed/radiomap.csv would overwrite what is read' \
     replay walk.csv --plan plan.csv --radiomap surveyed/radiomap.csv --out surveyed/radiomap.csv
+
+# ---- train-carry ---------------------------------------------------------------------------
+
+# A phone that bounces `a` m/s^2 and sways `b`, turned by nothing.
+carried() {
+    awk -v a="$1" -v b="$2" 'BEGIN {
+        print "t,ax,ay,az"
+        for (i = 0; i < 3000; i++)
+            printf "%.2f,%.3f,%.3f,%.3f\n", i * 0.02, b * sin(0.12 * i), 0.5 * cos(0.6 * i),
+                9.8 + a * sin(0.24 * i + 0.001 * i * sin(i))
+    }'
+}
+carried 2 0.3 >hand1.csv; carried 2.4 0.5 >hand2.csv
+carried 5 3 >pocket1.csv; carried 6 3.5 >pocket2.csv
+printf 'file,person,position\nhand1.csv,ann,inhand\npocket1.csv,ann,pocket\n' >people.csv
+printf 'hand2.csv,bob,hand\npocket2.csv,bob,pocket\n' >>people.csv
+printf 'file,person,position\nhand1.csv,ann,hand\n' >lonely.csv
+printf 'file,position\nhand1.csv,hand\n' >nobody.csv
+hands='hand=hand+inhand,pocket'
+refuses 2 'insole train-carry: expected one INDEX' train-carry
+refuses 2 'insole train-carry: --depth 8: expected a whole number from 1 to 7' \
+    train-carry people.csv --depth 8
+refuses 2 'insole train-carry: --features some: expected paper or all' \
+    train-carry people.csv --features some
+refuses 2 'insole train-carry: --name 2nd: expected a letter, then letters, digits and underscores, at most 40' \
+    train-carry people.csv --name 2nd
+refuses 2 'insole train-carry: --out ./people.csv would overwrite what is read' \
+    train-carry people.csv --out ./people.csv
+refuses 1 'absent.csv: cannot open: No such file or directory' train-carry absent.csv
+refuses 1 'nobody.csv:1: header is not of an index: expected the columns file,person,position' \
+    train-carry nobody.csv
+run train-carry lonely.csv; status_is 1
+has err 'insole train-carry: only one position, hand: expected two or more'
+run train-carry people.csv --leave-out carl --classes "$hands"; status_is 2
+has err 'insole train-carry: --leave-out carl: nobody of that name'
+run train-carry people.csv --leave-out each --classes "$hands" --trees 9 --out forest.c
+status_is 0; empty err
+has out 'Held out: ann'
+has out 'Held out: bob'
+has out '9 trees, '
+has forest.c 'const insole_carry_forest_t carry_forest = {'
+has forest.c 'static const char *const carry_names[2] = {"hand", "pocket"};'
+run train-carry people.csv --classes "$hands" --trees 9 --out -
+status_is 0; has err 'Out of bag'; cmp out forest.c || fail 'not the same table'
+run train-carry people.csv --leave-out ann --classes "$hands"; status_is 0; has out 'Held out'
+run train-carry people.csv --test people.csv --classes "$hands"; status_is 0; has out 'Held out'
 
 # ---- simulate, in builds that have it ------------------------------------------------------
 

@@ -75,7 +75,8 @@ START_TEST(the_table_is_the_forest_that_grew)
         insole_carry_votes_t a, b;
         ck_assert(insole_carry_forest_vote(&people_forest, &windows.rows[i].features, &a) == 0 &&
                   insole_carry_forest_vote(&grown.forest, &windows.rows[i].features, &b) == 0);
-        worst_require(&same, memcmp(&a, &b, sizeof a) == 0, (double)i);
+        worst_require(&same, a.winner == b.winner && memcmp(a.share, b.share, sizeof a.share) == 0,
+                      (double)i);
     }
     ASSERT_ALL_HELD(same);
     forest_free(&grown);

@@ -182,8 +182,8 @@ static inline rig_case_t usual_case(const hand_t *hand)
                     .has_start = true,
                     .start = start_of(hand, true),
                     .slice = UINT32_MAX};
-    c.config.step_length.model = INSOLE_STEP_LENGTH_CONSTANT;
-    c.config.step_length.constant_m = (insole_real_t)HAND_STEP_M;
+    c.config.walk.step_length.model = INSOLE_STEP_LENGTH_CONSTANT;
+    c.config.walk.step_length.constant_m = (insole_real_t)HAND_STEP_M;
     return c;
 }
 

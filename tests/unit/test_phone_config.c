@@ -135,7 +135,7 @@ END_TEST
 START_TEST(every_key_of_the_steps_has_its_range)
 {
     config = insole_phone_tracker_defaults;
-    insole_step_config_t *part = &config.step;
+    insole_step_config_t *part = &config.walk.step;
     INSOLE_STEP_KEYS(TRY)
     ck_assert_int_ge(keys, 16);
 }
@@ -144,7 +144,7 @@ END_TEST
 START_TEST(every_key_of_the_lengths_has_its_range)
 {
     config = insole_phone_tracker_defaults;
-    insole_step_length_config_t *part = &config.step_length;
+    insole_step_length_config_t *part = &config.walk.step_length;
     INSOLE_STEP_LENGTH_KEYS(TRY)
     ck_assert_int_ge(keys, 14);
 }
@@ -188,13 +188,13 @@ START_TEST(parts_take_what_is_taken_here)
     config = insole_phone_tracker_defaults;
     config.screen.max_rate_hz = INSOLE_R(40.0);
     config.attitude.level_s = INSOLE_R(10.0);
-    config.step.first_steps = 8;
+    config.walk.step.first_steps = 8;
     config.compass.block_s = INSOLE_R(60.0);
     config.auto_start.fixes = 8;
     expect(INSOLE_OK, "ends of ranges");
     ck_assert_int_eq(insole_screen_init(&screen, &config.screen), INSOLE_OK);
     ck_assert_int_eq(insole_attitude_init(&attitude, &config.attitude), INSOLE_OK);
-    ck_assert_int_eq(insole_step_init(&steps, &config.step), INSOLE_OK);
+    ck_assert_int_eq(insole_step_init(&steps, &config.walk.step), INSOLE_OK);
     ck_assert_int_eq(insole_phone_compass_init(&compass, &config.compass), INSOLE_OK);
     ck_assert_int_eq(insole_auto_start_init(&start, &config.auto_start), INSOLE_OK);
 }

@@ -71,7 +71,7 @@ START_TEST(lengths_by_the_root_follow_the_bounce)
     hand.accel_noise = 0.0;
     walk_legs(&hand, STRAIGHT, 3);
     rig_case_t c = usual_case(&hand);
-    c.config.step_length = insole_step_length_defaults;
+    c.config.walk.step_length = insole_step_length_defaults;
     run_case(&rig, &c);
     double low = 1.0 / sqrt(1.0 + pow(2.0 / 2.2, 4.0)), high = 2.0 / hypot(2.0, 0.5);
     double length_m = 0.412 * pow(2.0 * shakes[_i] * low * high, 0.25);
@@ -151,7 +151,7 @@ START_TEST(not_shown_the_first_steps_come_later_and_all_at_once)
     uint32_t moved = 0u;
     walk_legs(&usual_hand, STRAIGHT, 3);
     rig_case_t c = usual_case(&usual_hand);
-    c.config.shown_steps = 9;
+    c.config.walk.shown_steps = 9;
     run_case(&rig, &c);
     while (moved < fix_count && fixes[moved].position_m.x == fixes[0].position_m.x) {
         moved++;

@@ -359,6 +359,20 @@ START_TEST(a_scan_far_ahead_does_not_end_the_fixes)
 }
 END_TEST
 
+/* A scan of which the way since has been forgotten is no fix. */
+START_TEST(a_scan_of_long_ago_is_refused)
+{
+    rig_case_t c = full_case(true);
+    set_up(&rig, &c);
+    run(&rig, &c, 0u, 2000u);
+    insole_scan_t old = {samples[600].t_us, scans[5].readings, scans[5].count};
+    ASSERT_REFUSED(rig, rig.phone.counts.refused, insole_phone_tracker_scan(&rig.phone, &old),
+                   INSOLE_ERR_TIME);
+    old.t_us = samples[1400].t_us; /* 12 steps ago */
+    ck_assert_int_eq(insole_phone_tracker_scan(&rig.phone, &old), INSOLE_OK);
+}
+END_TEST
+
 /* ---- refusals ------------------------------------------------------------------------------ */
 
 START_TEST(bad_starts_leave_all_as_it_was)
@@ -420,7 +434,7 @@ START_TEST(trackers_of_nothing_are_refused)
     lacking.solver.state = NULL;
     ASSERT_UNCHANGED(rig, insole_phone_tracker_init(&rig.phone, &config, &lacking, &prints.map),
                      INSOLE_ERR_VALUE);
-    config.step.low_pass_hz = (insole_real_t)NAN;
+    config.walk.step.low_pass_hz = (insole_real_t)NAN;
     ASSERT_UNCHANGED(rig, insole_phone_tracker_init(&rig.phone, &config, &parts, &prints.map),
                      INSOLE_ERR_VALUE);
     ck_assert_int_eq(insole_phone_tracker_init(&rig.phone, &c.config, &none, &prints.map),
@@ -485,6 +499,7 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "two instances", instances_are_independent, 2);
     suite_add_loop(suite, "garbage", garbage_never_makes_a_fix_that_is_no_number, 16);
     suite_add_loop(suite, "scan far ahead", a_scan_far_ahead_does_not_end_the_fixes, 3);
+    suite_add(suite, "scan of long ago", a_scan_of_long_ago_is_refused);
     suite_add(suite, "bad starts", bad_starts_leave_all_as_it_was);
     suite_add_loop(suite, "bad news", bad_fields_and_scans_leave_the_position_as_it_was, 3);
     suite_add(suite, "nothing to track with", trackers_of_nothing_are_refused);

@@ -309,6 +309,22 @@ START_TEST(of_many_steps_the_last_sixteen_are_kept)
 }
 END_TEST
 
+START_TEST(it_reaches_as_far_as_its_oldest_step)
+{
+    setup_test();
+    ck_assert(insole_phone_way_reaches(&way, 0u));
+    for (uint64_t i = 1u; i <= 15u; i++) {
+        go(500000u * i, 500000u * (i + 1u), 0.7, 0.0);
+        ck_assert(insole_phone_way_reaches(&way, 0u)); /* none has been forgotten */
+    }
+    for (uint64_t i = 16u; i <= 40u; i++) {
+        go(500000u * i, 500000u * (i + 1u), 0.7, 0.0);
+        ck_assert(insole_phone_way_reaches(&way, 500000u * (i - 15u)));
+        ck_assert(!insole_phone_way_reaches(&way, 500000u * (i - 15u) - 1u));
+    }
+}
+END_TEST
+
 START_TEST(the_way_shrinks_steadily_as_the_time_goes_on)
 {
     worst_t order = {0.0, 0.0};
@@ -441,6 +457,7 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "evenly", a_step_counts_evenly_over_its_time, 12);
     suite_add(suite, "share", share_stays_within_zero_and_one);
     suite_add(suite, "sixteen steps", of_many_steps_the_last_sixteen_are_kept);
+    suite_add(suite, "reaches", it_reaches_as_far_as_its_oldest_step);
     suite_add(suite, "way shrinks", the_way_shrinks_steadily_as_the_time_goes_on);
     suite_add_loop(suite, "bad directions", directions_that_are_none_are_refused, 5);
     suite_add(suite, "bad steps", steps_that_are_none_are_refused);

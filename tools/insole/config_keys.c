@@ -31,16 +31,20 @@
 
 #define PHONE_TRACKER_ROW(kind, name, ...)                                                         \
     ROW(phone_tracker, phone.tracker, kind, name, __VA_ARGS__)
+#define PHONE_WALK_ROW(kind, name, ...) ROW(phone_walk, phone.tracker.walk, kind, name, __VA_ARGS__)
 #define PHONE_PLACE_ROW(kind, name, ...)                                                           \
     ROW(phone_place, phone.tracker.place, kind, name, __VA_ARGS__)
 #define PHONE_COMPASS_ROW(kind, name, ...)                                                         \
     ROW(phone_compass, phone.tracker.compass, kind, name, __VA_ARGS__)
 #define ATTITUDE_ROW(kind, name, ...) ROW(attitude, phone.tracker.attitude, kind, name, __VA_ARGS__)
-#define STEP_ROW(kind, name, ...)     ROW(step, phone.tracker.step, kind, name, __VA_ARGS__)
+#define STEP_ROW(kind, name, ...)     ROW(step, phone.tracker.walk.step, kind, name, __VA_ARGS__)
 #define STEP_LENGTH_ROW(kind, name, ...)                                                           \
-    ROW(step_length, phone.tracker.step_length, kind, name, __VA_ARGS__)
+    ROW(step_length, phone.tracker.walk.step_length, kind, name, __VA_ARGS__)
 #define AUTO_START_ROW(kind, name, ...)                                                            \
     ROW(auto_start, phone.tracker.auto_start, kind, name, __VA_ARGS__)
+#define WALK_HEADING_ROW(kind, name, ...)                                                          \
+    ROW(walk_heading, phone.walk_heading, kind, name, __VA_ARGS__)
+#define CARRY_ROW(kind, name, ...) ROW(carry, phone.carry, kind, name, __VA_ARGS__)
 #define STEP_FUSION_ROW(kind, name, ...)                                                           \
     ROW(step_fusion, phone.step_fusion, kind, name, __VA_ARGS__)
 #define ML_SHIFT_ROW(kind, name, ...)   ROW(ml_shift, phone.ml_shift, kind, name, __VA_ARGS__)
@@ -72,12 +76,15 @@ static const config_key_t keys[] = {
     INSOLE_RSS_FIX_KEYS(RSS_FIX_ROW)
     INSOLE_RANGE_FIX_KEYS(RANGE_FIX_ROW)
     INSOLE_PHONE_TRACKER_KEYS(PHONE_TRACKER_ROW)
+    INSOLE_PHONE_WALK_KEYS(PHONE_WALK_ROW)
     INSOLE_PHONE_PLACE_KEYS(PHONE_PLACE_ROW)
     INSOLE_PHONE_COMPASS_KEYS(PHONE_COMPASS_ROW)
     INSOLE_ATTITUDE_KEYS(ATTITUDE_ROW)
     INSOLE_STEP_KEYS(STEP_ROW)
     INSOLE_STEP_LENGTH_KEYS(STEP_LENGTH_ROW)
     INSOLE_AUTO_START_KEYS(AUTO_START_ROW)
+    INSOLE_WALK_HEADING_KEYS(WALK_HEADING_ROW)
+    INSOLE_CARRY_KEYS(CARRY_ROW)
     INSOLE_STEP_FUSION_KEYS(STEP_FUSION_ROW)
     INSOLE_ML_SHIFT_KEYS(ML_SHIFT_ROW)
     INSOLE_WALKER_EKF_KEYS(WALKER_EKF_ROW)

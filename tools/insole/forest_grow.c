@@ -261,8 +261,8 @@ static bool grow_trees(grower_t *grower, const bool *is_used, uint16_t *votes, f
 bool forest_grow(grown_t *grown, const carry_windows_t *windows, const bool *is_used,
                  const forest_settings_t *settings, confusion_t *out_of_bag, failure_t *failure)
 {
-    grower_t grower = {grown, windows, settings, {{0u}}, NULL, 0u};
     memset(grown, 0, sizeof *grown);
+    grower_t grower = {grown, windows, settings, {{0u}}, NULL, 0u};
     grown->forest.names = (const char *const *)windows->classes.names.names;
     grown->forest.class_count = (uint8_t)windows->classes.names.count;
     uint16_t *votes = out_of_bag == NULL ? NULL

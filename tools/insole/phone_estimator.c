@@ -55,7 +55,7 @@ static double offset_rad(const phone_estimator_t *estimator)
 /* The steps that were told since. */
 static void watch_steps(phone_estimator_t *estimator)
 {
-    const insole_phone_way_t *way = &estimator->tracker.way;
+    const insole_phone_way_t *way = &estimator->tracker.walk.way;
     double turn_rad = offset_rad(estimator);
     uint32_t fresh = way->ring.end - estimator->steps;
     uint32_t kept = insole_ring_count(&way->ring);
@@ -77,7 +77,7 @@ static void watch(phone_estimator_t *estimator, int64_t t_us)
     if (estimator->event_taken == estimator->event_count) {
         estimator->event_taken = estimator->event_count = 0;
     }
-    if (tracker->way.ring.end != estimator->steps) {
+    if (tracker->walk.way.ring.end != estimator->steps) {
         watch_steps(estimator);
     }
     if (tracker->place.starts != estimator->starts) {

@@ -9,6 +9,8 @@ void settings_init(settings_t *settings)
     settings->fusion = insole_foot_fusion_defaults;
     settings->propagation = insole_propagation_defaults;
     settings->phone.tracker = insole_phone_tracker_defaults;
+    settings->phone.walk_heading = insole_walk_heading_defaults;
+    settings->phone.carry = insole_carry_defaults;
     settings->phone.step_fusion = insole_step_fusion_defaults;
     settings->phone.ml_shift = insole_ml_shift_defaults;
     settings->phone.walker_ekf = insole_walker_ekf_defaults;

@@ -38,6 +38,8 @@ typedef struct {
  *  settings of the foot's. */
 typedef struct {
     insole_phone_tracker_config_t tracker;
+    insole_walk_heading_config_t walk_heading;
+    insole_carry_config_t carry;
     insole_step_fusion_config_t step_fusion;
     insole_ml_shift_config_t ml_shift;
     insole_walker_ekf_config_t walker_ekf;

@@ -1,7 +1,7 @@
 /** @file phone_config.h  All settings of the phone tracker, its own and those of its parts.
  *
  *      insole_phone_tracker_config_t config = insole_phone_tracker_defaults;
- *      config.step_length.root_scale = INSOLE_R(0.43);
+ *      config.walk.step_length.root_scale = INSOLE_R(0.43);
  *      insole_phone_tracker_init(&phone, &config, &parts, &map);
  *
  *  The filter and the solver of fixes are set up by their own calls and are not among them.
@@ -12,12 +12,11 @@
 #define INSOLE_TRACK_PHONE_CONFIG_H
 
 #include "insole/move/attitude.h"
-#include "insole/move/step_length.h"
 #include "insole/sense/screen.h"
-#include "insole/sense/step.h"
 #include "insole/sense/still_bias.h"
 #include "insole/track/phone_compass.h"
 #include "insole/track/phone_place.h"
+#include "insole/track/phone_walk.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -25,12 +24,6 @@ extern "C" {
 
 /* clang-format off */
 #define INSOLE_PHONE_TRACKER_KEYS(KEY)                                                            \
-    KEY(REAL, sigma_length_share, 0.15, 0.0, 1.0, "",                                             \
-        "1-sigma of a step's length, as a share of it")                                           \
-    KEY(REAL, sigma_ahead_rad, 0.07, 0.0, 1.0, "rad",                                             \
-        "1-sigma between where the phone points and where a step goes")                           \
-    KEY(INT, shown_steps, 2, 1, 9, "steps",                                                       \
-        "so many peaks in a row are shown before it is sure that this is a walk; 9 = never")      \
     KEY(REAL, radio_late_s, 1.0, 0.0, 10.0, "s",                                                  \
         "a reading is later than its age tells, at most so much; as when the map was made")       \
     KEY(REAL, sigma_fix_m, 0.0, 0.0, 100.0, "m",                                                  \
@@ -50,8 +43,7 @@ typedef struct {
     insole_screen_config_t screen;
     insole_still_bias_config_t still_bias;
     insole_attitude_config_t attitude;
-    insole_step_config_t step;
-    insole_step_length_config_t step_length;
+    insole_phone_walk_config_t walk;
     insole_phone_compass_config_t compass;
     insole_auto_start_config_t auto_start;
     insole_phone_place_config_t place;

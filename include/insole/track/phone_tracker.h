@@ -15,7 +15,7 @@
  *      insole_step_fusion_init(&fusion, &insole_step_fusion_defaults);
  *      insole_kde_fix_init(&kde, &insole_kde_fix_defaults);
  *      insole_phone_parts_t parts = {insole_attitude_ekf, {&insole_kde_fix_calls, &kde},
- *                                    {&insole_step_ekf_calls, &fusion}};
+ *                                    {&insole_step_ekf_calls, &fusion}, {NULL}};
  *      insole_phone_tracker_init(&phone, &insole_phone_tracker_defaults, &parts, &map);
  *      on each sample:   insole_phone_tracker_imu(&phone, &imu);
  *                        while (insole_phone_tracker_next(&phone, &fix) == INSOLE_OK) use(&fix);
@@ -28,6 +28,8 @@
  *  Start: the one that was told; without it, where the fixes by radio place the walk, and its
  *  direction by the compass or by the fixes (auto_start.h). Until then the state is `search`.
  *
+ *  A phone that is not held in front of its walker needs the parts of `gait` (phone_walk.h).
+ *
  *  The first steps of a walk are held back until there is a rhythm; the position shows them before.
  *
  *  SPDX-License-Identifier: MIT
@@ -37,7 +39,6 @@
 
 #include "insole/track/phone_config.h"
 #include "insole/track/phone_radio.h"
-#include "insole/track/phone_way.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -48,6 +49,7 @@ typedef struct {
     insole_attitude_method_t *attitude; /**< NULL: the gyro alone */
     insole_radio_solver_t solver;
     insole_step_filter_t filter;
+    insole_phone_gait_t gait; /**< all NULL: a step goes where the phone points */
 } insole_phone_parts_t;
 
 typedef struct {
@@ -66,19 +68,13 @@ typedef struct {
     insole_screen_t screen;
     insole_still_bias_t still_bias;
     insole_attitude_t attitude;
-    insole_step_counter_t steps;
-    insole_phone_way_t way; /**< the last steps, n */
+    insole_phone_walk_t walk; /**< its `way` holds the last steps, n */
     insole_phone_compass_t compass;
     insole_phone_radio_t radio;
     insole_phone_place_t place; /**< unless there is no filter */
 
-    uint64_t t_us;          /**< of the newest clean sample */
-    insole_turn_t ahead;    /**< n, where the phone points then */
-    insole_real_t yaw_rad2; /**< variance of that */
+    uint64_t t_us; /**< of the newest clean sample */
     bool has_time, coasting, finished;
-    insole_spot_t shown;   /**< n, way of the steps that are shown and not yet told */
-    uint64_t shown_end_us; /**< end of the newest of them, and how many they are */
-    uint32_t shown_count;
     insole_fix_t fix; /**< newest, until taken */
     bool has_fix;
 } insole_phone_tracker_t;
@@ -109,8 +105,8 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
 
 /** A scan. Its readings are copied; one still in work is given up.
  *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE without solver and map, or when too little is known of
- *          what was heard; INSOLE_ERR_TIME when it is a minute and more ahead of the samples that a
- *          filter walks by */
+ *          what was heard; with a filter INSOLE_ERR_TIME for one that is a minute and more
+ *          ahead of the samples, or older than the last 16 steps */
 insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
                                           const insole_scan_t *scan);
 

@@ -70,6 +70,9 @@ insole_real_t insole_phone_way_share(const insole_footfall_t *footfall, uint64_t
 /** The way of the steps kept that was walked after a time, n; steps count evenly. */
 insole_spot_t insole_phone_way_since(const insole_phone_way_t *way, uint64_t t_us);
 
+/** Whether all steps since that time are kept. */
+bool insole_phone_way_reaches(const insole_phone_way_t *way, uint64_t t_us);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,126 @@
+/** @file phone_walk.h  From samples of a phone to steps with a length and a direction.
+ *
+ *  Source  [PhoneEKF] 3.1; [PhoneUKF] 5.3, 6.2.
+ *  Frames  b: phone.  n: level, that of the attitude.
+ *
+ *  In the hand a step goes where the phone points (heading.h). In any other position the gait tells
+ *  where (walk_heading.h), step by step, or, the default, as a mean: the angle between where the
+ *  phone points and where the gait goes stays the same while the phone is carried in the same way,
+ *  so its mean over the last steps is far better than each, and turns are those of the phone. When
+ *  the position changes, or the phone is tipped over, the mean begins anew. Which position it is,
+ *  carry.h tells, if it is there; without it the gait's direction counts always.
+ *
+ *      insole_phone_walk_init(&walk, &insole_phone_walk_defaults, &gait);
+ *      on each sample, after the attitude:
+ *          insole_phone_walk_push(&walk, &attitude, &imu);
+ *          while (insole_phone_walk_next(&walk, &footfall, &pace) == INSOLE_OK) use(&pace);
+ *      in idle time:  insole_phone_walk_work(&walk);
+ *
+ *  The first steps of a walk are told late; their way is shown before in `shown`.
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_TRACK_PHONE_WALK_H
+#define INSOLE_TRACK_PHONE_WALK_H
+
+#include "insole/fuse/step_news.h"
+#include "insole/move/attitude.h"
+#include "insole/move/step_length.h"
+#include "insole/move/walk_heading.h"
+#include "insole/sense/carry.h"
+#include "insole/sense/step.h"
+#include "insole/track/phone_way.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* clang-format off */
+#define INSOLE_PHONE_WALK_KEYS(KEY)                                                               \
+    KEY(REAL, sigma_length_share, 0.15, 0.0, 1.0, "",                                             \
+        "1-sigma of a step's length, as a share of it")                                           \
+    KEY(REAL, sigma_ahead_rad, 0.07, 0.0, 1.0, "rad",                                             \
+        "1-sigma between where the phone points and where a step goes")                           \
+    KEY(INT, shown_steps, 2, 1, 9, "steps",                                                       \
+        "so many peaks in a row are shown before it is sure that this is a walk; 9 = never")      \
+    KEY(CHOICE, gait, 0, 0, 1, "mean|step", "whose direction a step has that goes by the gait")   \
+    KEY(REAL, gait_keep, 0.93, 0.0, 0.999, "", "kept from step to step of that mean")             \
+    KEY(REAL, sigma_gait_rad, 0.1, 0.0, 3.0, "rad", "1-sigma of the best mean")                   \
+    KEY(REAL, tipped_rad, 0.9, 0.1, 3.2, "rad", "a phone tipped over by so much is carried anew") \
+    KEY(INT, ahead_position, 0, -1, 7, "",                                                        \
+        "carrying position in which a phone points ahead, by its number in the table; -1 = none")
+/* clang-format on */
+
+typedef struct {
+    INSOLE_PHONE_WALK_KEYS(INSOLE_CONFIG_MEMBER)
+    insole_step_config_t step;
+    insole_step_length_config_t step_length;
+} insole_phone_walk_config_t;
+
+extern const insole_phone_walk_config_t insole_phone_walk_defaults;
+
+/** What tells where a step goes that a phone does not point; states set up by the caller. */
+typedef struct {
+    insole_walk_heading_t *heading;      /**< NULL: a step always goes where the phone points */
+    insole_carry_t *carry;               /**< NULL: it never does */
+    const insole_carry_forest_t *forest; /**< NULL: as without carry */
+} insole_phone_gait_t;
+
+/** The angle from where the phone points to where its walker goes. */
+typedef struct {
+    insole_turn_t sum; /**< weighted by what each step knew of it; 0, 0: nothing is known */
+    insole_vec3_t up;  /**< b, of unit length: as the phone lay while it was learned */
+} insole_phone_askew_t;
+
+typedef struct {
+    insole_phone_walk_config_t config;
+    insole_phone_gait_t gait;
+    insole_step_counter_t steps;
+    insole_phone_way_t way; /**< the last steps, n */
+    insole_turn_t ahead;    /**< n, where the phone points */
+    insole_real_t yaw_rad2; /**< variance of that */
+    insole_vec3_t up;       /**< b, of unit length, smoothed */
+    insole_phone_askew_t askew;
+    uint64_t t_us;
+    insole_spot_t shown;   /**< n, way of the steps that are shown and not yet told */
+    uint64_t shown_end_us; /**< end of the newest of them, and how many they are */
+    uint32_t shown_count;
+} insole_phone_walk_t;
+
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_phone_walk_check(const insole_phone_walk_config_t *config);
+
+/** @param gait  NULL: a step goes where the phone points
+ *  @return as insole_phone_walk_check(); INSOLE_ERR_DATA for a forest that is none */
+insole_status_t insole_phone_walk_init(insole_phone_walk_t *walk,
+                                       const insole_phone_walk_config_t *config,
+                                       const insole_phone_gait_t *gait);
+
+/** A sample, after `attitude` has taken it.
+ *  @return INSOLE_ERR_NULL; else as insole_step_push() */
+insole_status_t insole_phone_walk_push(insole_phone_walk_t *walk, const insole_attitude_t *attitude,
+                                       const insole_imu_t *imu);
+
+/** The next step that is told.
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_STATE when there is none */
+insole_status_t insole_phone_walk_next(insole_phone_walk_t *walk, insole_footfall_t *footfall,
+                                       insole_pace_t *pace);
+
+/** The position of the phone is looked for, once a second. @return true when it was */
+bool insole_phone_walk_work(insole_phone_walk_t *walk);
+
+/** The carrying position as the forest numbers it; INSOLE_CARRY_NONE where nothing tells it. */
+int32_t insole_phone_walk_position(const insole_phone_walk_t *walk);
+
+/** Where the walker goes, as far as a phone can tell while no step is made, n. */
+insole_turn_t insole_phone_walk_ahead(const insole_phone_walk_t *walk);
+
+/** The way from a time to the last step that was told, n: backwards when that is shown, not told.
+ */
+insole_spot_t insole_phone_walk_since(const insole_phone_walk_t *walk, uint64_t t_us);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
