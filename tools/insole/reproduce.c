@@ -21,7 +21,7 @@
 static const uint64_t first_survey = UINT64_C(1) << 40;
 
 /* Columns of the footfalls. */
-enum { STEP_KIND, STEP_TIME };
+enum { STEP_KIND, STEP_TIME, STEP_FOOT, STEP_COLUMNS };
 
 /* A place told so vaguely is none: the particles begin where radio says. */
 static const double vague_place_m = 900.0;
@@ -112,9 +112,10 @@ static read_t read_step(reproduction_t *reproduction, const track_t *whole, colu
 
 static bool take_steps(reproduction_t *reproduction, const track_t *whole, failure_t *failure)
 {
-    static const column_t columns[] = {
-        [STEP_KIND] = {"kind", 0.0, 0.0}, [STEP_TIME] = {"t", 0.0, 1e6}};
-    static const columns_layout_t layout = {columns, 2, 2, STEP_KIND};
+    static const column_t columns[STEP_COLUMNS] = {[STEP_KIND] = {"kind", 0.0, 0.0},
+                                                   [STEP_TIME] = {"t", 0.0, 1e6},
+                                                   [STEP_FOOT] = {"foot", 0.0, 0.0}};
+    static const columns_layout_t layout = {columns, STEP_COLUMNS, STEP_COLUMNS, STEP_KIND};
     columns_t steps;
     read_t answer = READ_FAILED;
     char *path = platform_join(reproduction->folder, "steps.csv");

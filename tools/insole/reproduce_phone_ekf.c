@@ -18,8 +18,8 @@ enum { EKF, PDR, PDR_GYRO, WIFI, CLOUD, CLOUD_KDE, OUR_BEST, OUR_BEST_PLAN, OUR_
  * radius of (28) and the scatters of steps are the best of a grid over seeds 1001 to 1020; so are,
  * for themselves, those of the particle filters and the width for Wi-Fi alone. */
 static const char *const settings[] = {OWN_STEPS,
-                                       "phone_tracker.sigma_length_share=0.1",
-                                       "phone_tracker.sigma_ahead_rad=0",
+                                       "phone_walk.sigma_length_share=0.1",
+                                       "phone_walk.sigma_ahead_rad=0",
                                        "phone_tracker.trust_sigmas=0.001",
                                        "phone_tracker.trust_least_m=2",
                                        "kde_fix.kernel=gauss",
