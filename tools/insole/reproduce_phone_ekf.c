@@ -144,31 +144,51 @@ static bool draw_legs(const reproduction_t *reproduction, failure_t *failure)
 
 /* ---- figure 6: heading ------------------------------------------------------------------ */
 
-/* Directions are shown from -135 to 225 degrees: those of all legs are well within. */
-static double shown_deg(double heading_rad)
-{
-    return 45.0 + remainder(heading_rad / quarter_rad * 90.0 - 45.0, 360.0);
-}
+enum { BOTH, GYRO, TRUTH, LINES };
 
-static void add_truth(chart_line_t *line, const track_t *steps)
+/* Of all angles that are the same direction the nearest. */
+static double unwound_deg(double heading_rad, double near_deg)
 {
-    for (size_t i = 0u; i + 1u < steps->count; i++) {
-        double direction_rad;
-        if (find_direction(steps, i, &direction_rad)) {
-            chart_add(line, 1e-6 * (double)steps->rows[i].t_us, shown_deg(direction_rad));
-            chart_add(line, 1e-6 * (double)steps->rows[i + 1u].t_us, shown_deg(direction_rad));
-        }
-    }
+    return near_deg + remainder(90.0 * heading_rad / quarter_rad - near_deg, 360.0);
 }
 
 static void add_headings(chart_line_t *line, const reproduction_t *reproduction, int row)
 {
     const track_t *track = &reproduction->tracks[row];
+    double last_deg = 0.0;
     for (size_t i = 0u; i < track->count; i++) {
         double t_s = 1e-6 * (double)track->rows[i].t_us;
         if (t_s >= reproduction->paper->begin_s) {
-            chart_add(line, t_s, shown_deg(track->rows[i].heading_rad));
+            last_deg = unwound_deg(track->rows[i].heading_rad, last_deg);
+            chart_add(line, t_s, last_deg);
         }
+    }
+}
+
+/* Of a turn by half a circle the footfalls do not tell whether it was to the left: the gyro does.
+ */
+static void add_truth(chart_line_t *line, const track_t *steps, const chart_line_t *turned)
+{
+    size_t k = 0u;
+    for (size_t i = 0u; i + 1u < steps->count; i++) {
+        double direction_rad, begin_s = 1e-6 * (double)steps->rows[i].t_us;
+        while (k + 1u < turned->count && turned->points[k].x < begin_s) {
+            k++;
+        }
+        if (find_direction(steps, i, &direction_rad)) {
+            double shown_deg = unwound_deg(direction_rad, turned->points[k].y);
+            chart_add(line, begin_s, shown_deg);
+            chart_add(line, 1e-6 * (double)steps->rows[i + 1u].t_us, shown_deg);
+        }
+    }
+}
+
+/* The next multiples of a quarter turn beyond what is shown. */
+static void frame(chart_t *chart, const chart_line_t *line)
+{
+    for (size_t i = 0u; i < line->count; i++) {
+        chart->y_low = fmin(chart->y_low, 90.0 * floor(line->points[i].y / 90.0));
+        chart->y_high = fmax(chart->y_high, 90.0 * ceil(line->points[i].y / 90.0));
     }
 }
 
@@ -176,22 +196,20 @@ static bool draw_headings(const reproduction_t *reproduction, failure_t *failure
 {
     static const reproduce_picture_t picture = {"figure6.svg", "Direction of the walk",
                                                 "As figure 6 of [PhoneEKF], the first walk"};
-    enum { TRUTH, BOTH, GYRO, LINES };
-    chart_line_t lines[LINES] = {[TRUTH] = {.name = "truth, step by step"},
-                                 [BOTH] = {.name = "gyro + acc"},
-                                 [GYRO] = {.name = "gyro"}};
+    chart_line_t lines[LINES] = {[BOTH] = {.name = "gyro + acc"},
+                                 [GYRO] = {.name = "gyro"},
+                                 [TRUTH] = {.name = "truth, step by step"}};
     const track_t *steps = &reproduction->truth;
-    add_truth(&lines[TRUTH], steps);
     add_headings(&lines[BOTH], reproduction, PDR);
     add_headings(&lines[GYRO], reproduction, PDR_GYRO);
-    const chart_t chart = {.x_name = "t [s]",
-                           .y_name = "degrees from x, to the left",
-                           .x_low = reproduction->paper->begin_s,
-                           .x_high = 1e-6 * (double)steps->rows[steps->count - 1u].t_us,
-                           .y_low = -135.0,
-                           .y_high = 225.0,
-                           .lines = lines,
-                           .line_count = LINES};
+    add_truth(&lines[TRUTH], steps, &lines[BOTH]);
+    chart_t chart = {.x_name = "t [s]",
+                     .y_name = "degrees from x, to the left",
+                     .x_low = reproduction->paper->begin_s,
+                     .x_high = 1e-6 * (double)steps->rows[steps->count - 1u].t_us,
+                     .lines = lines,
+                     .line_count = LINES};
+    frame(&chart, &lines[TRUTH]);
     bool is_good = reproduce_draw_chart(reproduction, &chart, &picture, failure);
     for (int i = 0; i < LINES; i++) {
         chart_free(&lines[i]);
