@@ -183,12 +183,13 @@ static void add_truth(chart_line_t *line, const track_t *steps, const chart_line
     }
 }
 
-/* The next multiples of a quarter turn beyond what is shown. */
+static const double margin_deg = 30.0;
+
 static void frame(chart_t *chart, const chart_line_t *line)
 {
     for (size_t i = 0u; i < line->count; i++) {
-        chart->y_low = fmin(chart->y_low, 90.0 * floor(line->points[i].y / 90.0));
-        chart->y_high = fmax(chart->y_high, 90.0 * ceil(line->points[i].y / 90.0));
+        chart->y_low = fmin(chart->y_low, line->points[i].y - margin_deg);
+        chart->y_high = fmax(chart->y_high, line->points[i].y + margin_deg);
     }
 }
 
