@@ -33,6 +33,8 @@ typedef enum {
     METHOD_ML_SHIFT, /**< [WifiShift] */
     METHOD_PF,       /**< rivals of [PhoneEKF] 4: particles weighed by the strengths heard */
     METHOD_PF_KDE,   /**< or by the fix of kernels and its covariance */
+    METHOD_WPF, /**< rivals of [WifiShift] IV: particles weighed by the likeliest fingerprint */
+    METHOD_ZEE, /**< or by walls alone */
     METHODS
 } method_t;
 
@@ -40,7 +42,7 @@ typedef enum {
 #define METHOD_FOOT_NAMES "ins, pdr, wifi, two-order or best"
 #define METHOD_PHONE_NAMES                                                                         \
     "pdr-gyro, pdr, wifi-kde, wifi-ml, ekf, ukf, kf-const, ekf-const, ukf-const, ml-shift, pf,\n"  \
-    "pf-kde or best"
+    "pf-kde, wpf, zee or best"
 
 bool tracker_parse(const char *name, tracker_t *tracker, failure_t *failure);
 
