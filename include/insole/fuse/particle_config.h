@@ -129,11 +129,12 @@ extern const insole_particle_filter_config_t insole_particle_filter_phone;
 extern const insole_particle_filter_config_t insole_particle_filter_phone_plain;
 
 /** The fingerprint particle filter that [WifiShift] compares with, its reference 16: steps as told
- *  in directions that differ, a wall kills. */
+ *  in directions that differ and wander, a wall kills. */
 #define INSOLE_PARTICLE_FILTER_PHONE_WPF                                                           \
     {                                                                                              \
-        .scale_memory = INSOLE_R(1.0), .walls = INSOLE_WALLS_CROSSES,                              \
-        .soft_weight = INSOLE_R(1.0), .bias_s = INSOLE_R(1.0), INSOLE_PARTICLE_FILTER_STEPS        \
+        .sigma_wander_rad = INSOLE_R(0.02), .scale_memory = INSOLE_R(1.0),                         \
+        .walls = INSOLE_WALLS_CROSSES, .soft_weight = INSOLE_R(1.0), .bias_s = INSOLE_R(1.0),      \
+        INSOLE_PARTICLE_FILTER_STEPS                                                               \
     }
 extern const insole_particle_filter_config_t insole_particle_filter_phone_wpf;
 

@@ -25,9 +25,11 @@
  *  `insole_step_cloud_wpf`: [WifiShift]'s reference 16, to be told the likeliest fingerprint and a
  *  true start. Weights are multiplied by exp(-d^2 / (2 sigma^2)) of the distance d to that fix, and
  *  a wall that is crossed makes them 0. The text calls sigma "the variance of RSSs", which is no
- *  length: here it is one length for all fixes. It leaves open how directions differ and when there
- *  is a resampling: each step has a direction of its own, and resampled is below half the effective
- *  number. The text's estimate, "according to all weights", is their mean.
+ *  length: here it is one length for all fixes. It leaves open how directions differ: here each
+ *  particle keeps one of its own, which wanders by 0.02 rad a step, beside what each step has (with
+ *  `sigma_wander_rad` 0 nothing but the start's lasts, and errors are twice as large); and when
+ *  there is a resampling: here below half the effective number. The text's estimate, "according to
+ *  all weights", is their mean.
  *
  *  `insole_step_cloud_zee`: its reference 18. Particles have a place, an offset and a scale, spread
  *  over the walkable plan or about the first fix ("used to constrain the initial location"); from
