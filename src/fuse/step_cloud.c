@@ -345,9 +345,11 @@ static insole_status_t search_state(void *state, uint64_t t_us)
 
 static insole_status_t pass_over(void *state, const insole_spot_fix_t *fix)
 {
-    (void)state;
-    (void)fix;
-    return INSOLE_OK;
+    insole_step_cloud_t *cloud = state;
+    if (!cloud || !fix) {
+        return INSOLE_ERR_NULL;
+    }
+    return is_started(cloud) ? INSOLE_OK : refuse(cloud, INSOLE_ERR_STATE);
 }
 
 const insole_step_filter_calls_t insole_step_cloud_zee_calls = {.start = begin_state,

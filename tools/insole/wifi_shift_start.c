@@ -30,14 +30,15 @@ static void note_start(wifi_shift_t *study, const hunt_t *hunt, wifi_shift_start
     study->starts[kind][lambda]++;
 }
 
+/* The fixes of the pairs count from the first. */
 static insole_spot_t mean_of(const insole_auto_start_t *start)
 {
     insole_spot_t sum = {INSOLE_R(0.0), INSOLE_R(0.0)};
     for (uint32_t i = 0u; i < start->pairs; i++) {
         sum = insole_spot_add(sum, start->pair[i].radio);
     }
-    insole_real_t share = INSOLE_R(1.0) / (insole_real_t)start->pairs;
-    return insole_spot(sum.x_m * share, sum.y_m * share);
+    return insole_spot_add_scaled(start->first_radio, INSOLE_R(1.0) / (insole_real_t)start->pairs,
+                                  sum);
 }
 
 /* After each fix: what would be the start now. */
@@ -56,7 +57,7 @@ static void look(wifi_shift_t *study, hunt_t *hunt, const phone_estimator_t *est
     }
     note_start(study, hunt, hunt->kind, found.begin);
     if (hunt->kind == WIFI_SHIFT_CIRCLES) {
-        note_start(study, hunt, WIFI_SHIFT_FIRST, start->pair[0].radio);
+        note_start(study, hunt, WIFI_SHIFT_FIRST, start->first_radio);
         note_start(study, hunt, WIFI_SHIFT_MEAN, mean_of(start));
     }
 }
