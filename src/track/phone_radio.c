@@ -20,7 +20,7 @@ insole_status_t insole_phone_radio_init(insole_phone_radio_t *radio,
         return INSOLE_ERR_VALUE;
     }
     *radio = (insole_phone_radio_t){
-        .solver = *solver, .map = map, .late_us = (uint64_t)(late_s * INSOLE_R(1.0e6))};
+        .solver = *solver, .map = map, .late_us = (uint32_t)(late_s * INSOLE_R(1.0e6))};
     return INSOLE_OK;
 }
 

@@ -26,11 +26,8 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
     insole_phone_radio_t radio;
     if (insole_phone_config_check(config) != INSOLE_OK ||
         insole_phone_radio_init(&radio, &parts->solver, map, config->radio_late_s) != INSOLE_OK ||
-        (!has_filter(parts) && !insole_phone_radio_can_hear(&radio))) {
-        return INSOLE_ERR_VALUE;
-    }
-    insole_phone_walk_t walk;
-    if (insole_phone_walk_init(&walk, &config->walk, &parts->gait) != INSOLE_OK) {
+        (!has_filter(parts) && !insole_phone_radio_can_hear(&radio)) ||
+        (parts->gait.forest && insole_carry_forest_check(parts->gait.forest) != INSOLE_OK)) {
         return INSOLE_ERR_VALUE;
     }
     insole_phone_place_t place = {.starts = 0u};
@@ -40,7 +37,8 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
         return INSOLE_ERR_VALUE;
     }
     *tracker = (insole_phone_tracker_t){
-        .config = *config, .parts = *parts, .walk = walk, .radio = radio, .place = place};
+        .config = *config, .parts = *parts, .radio = radio, .place = place};
+    (void)insole_phone_walk_init(&tracker->walk, &config->walk, &parts->gait);
     (void)insole_screen_init(&tracker->screen, &config->screen);
     (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
     (void)insole_attitude_init(&tracker->attitude, &config->attitude);
@@ -71,7 +69,7 @@ insole_status_t insole_phone_tracker_start(insole_phone_tracker_t *tracker,
 static void direct_start(insole_phone_tracker_t *t)
 {
     const insole_phone_walk_t *walk = &t->walk;
-    if (insole_spot_dot(walk->shown, walk->shown) > ZERO &&
+    if (insole_spot_dot(walk->shown, walk->shown) > ZERO && insole_phone_walk_is_directed(walk) &&
         insole_phone_place_wants_direction(&t->place, walk->shown_end_us)) {
         (void)insole_phone_place_direct(&t->place, walk->shown_end_us,
                                         insole_atan2(walk->shown.y_m, walk->shown.x_m));

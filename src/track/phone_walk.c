@@ -73,12 +73,11 @@ int32_t insole_phone_walk_position(const insole_phone_walk_t *walk)
     return knows ? walk->gait.carry->told : INSOLE_CARRY_NONE;
 }
 
-/* Until the position is known the phone is taken to point ahead. */
 static bool goes_by_gait(const insole_phone_walk_t *w)
 {
-    bool knows = w->gait.carry && w->gait.forest;
     int32_t position = insole_phone_walk_position(w);
-    return w->gait.heading && (!knows || (position >= 0 && position != w->config.ahead_position));
+    bool faces_any = position >= 0 ? position != w->config.ahead_position : w->config.faces == 1;
+    return w->gait.heading && faces_any;
 }
 
 static void forget_askew(insole_phone_walk_t *w)
@@ -147,6 +146,12 @@ static insole_real_t askew_variance(const insole_phone_walk_t *w)
     insole_real_t floor_rad2 = insole_square(w->config.sigma_gait_rad);
     return information > ZERO ? insole_min(floor_rad2 + ONE / information, INSOLE_HEADING_MOST_R2)
                               : INSOLE_HEADING_MOST_R2;
+}
+
+bool insole_phone_walk_is_directed(const insole_phone_walk_t *walk)
+{
+    const insole_turn_t *sum = &walk->askew.sum;
+    return !goes_by_gait(walk) || insole_abs(sum->cos) + insole_abs(sum->sin) > ZERO;
 }
 
 static insole_real_t askew(const insole_phone_walk_t *w)

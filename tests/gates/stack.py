@@ -59,7 +59,14 @@ class Depths:
                 continue
             if short_name(name) not in self.indirect:
                 self.problems.append(f"{name}: a call through a pointer without listed targets")
-            yield from self.indirect.get(short_name(name), [])
+            for callee in self.indirect.get(short_name(name), []):
+                yield from self.named(callee)
+
+    def named(self, callee):
+        """A function, or all static ones of that name."""
+        if callee in self.graph.frames:
+            return [callee]
+        return [name for name in self.graph.frames if short_name(name) == callee] or [callee]
 
     def depth(self, name):
         if name in self.trail:

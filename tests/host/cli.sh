@@ -113,7 +113,16 @@ refuses 2 'insole: --format xml: expected csv, tum or geojson' replay walk.csv -
 refuses 2 'insole: --align sim3: expected none, yaw or se2' replay walk.csv --align sim3
 refuses 2 'insole: --method gps: expected ins, pdr, wifi, two-order or best' \
     replay walk.csv --method gps
-refuses 2 'insole replay: --tracker hand: expected foot' replay walk.csv --tracker hand
+refuses 2 'insole: --tracker hand: expected foot or phone' replay walk.csv --tracker hand
+refuses 2 'insole: --method ekf: expected ins, pdr, wifi, two-order or best; with --tracker phone it is a method' \
+    replay walk.csv --method ekf
+refuses 2 'insole replay: --method wifi-kde needs fingerprints: --radiomap FILE' \
+    replay walk.csv --tracker phone --method wifi-kde
+refuses 2 'insole replay: --lag is for the foot tracker' replay walk.csv --tracker phone --lag 1
+refuses 2 'insole replay: --smooth is for the foot tracker' \
+    replay walk.csv --tracker phone --smooth
+refuses 2 'insole replay: --aps is for the foot tracker' \
+    replay walk.csv --tracker phone --aps "$tree/maps/office/aps.csv"
 refuses 2 'insole: --accel-unit ft: expected mps2, g or mg' replay walk.csv --accel-unit ft
 refuses 2 'insole replay: --start 1: expected x,y or x,y,heading in m and rad' \
     replay walk.csv --start 1

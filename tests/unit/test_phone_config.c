@@ -88,8 +88,9 @@ START_TEST(defaults_are_those_of_the_parts)
     ASSERT_SAME(screen, screen);
     ASSERT_SAME(still_bias, still_bias);
     ASSERT_SAME(attitude, attitude);
-    ASSERT_SAME(step, step);
-    ASSERT_SAME(step_length, step_length);
+    ASSERT_SAME(walk, phone_walk);
+    ASSERT_SAME(walk.step, step);
+    ASSERT_SAME(walk.step_length, step_length);
     ASSERT_SAME(compass, phone_compass);
     ASSERT_SAME(auto_start, auto_start);
     ASSERT_SAME(place, phone_place);
@@ -101,7 +102,7 @@ START_TEST(every_own_key_has_its_range)
     config = insole_phone_tracker_defaults;
     insole_phone_tracker_config_t *part = &config;
     INSOLE_PHONE_TRACKER_KEYS(TRY)
-    ck_assert_int_ge(keys, 11);
+    ck_assert_int_ge(keys, 8);
 }
 END_TEST
 
@@ -138,6 +139,15 @@ START_TEST(every_key_of_the_steps_has_its_range)
     insole_step_config_t *part = &config.walk.step;
     INSOLE_STEP_KEYS(TRY)
     ck_assert_int_ge(keys, 16);
+}
+END_TEST
+
+START_TEST(every_key_of_the_walk_has_its_range)
+{
+    config = insole_phone_tracker_defaults;
+    insole_phone_walk_config_t *part = &config.walk;
+    INSOLE_PHONE_WALK_KEYS(TRY)
+    ck_assert_int_ge(keys, 8);
 }
 END_TEST
 
@@ -210,9 +220,9 @@ END_TEST
 /* Values that would break the arithmetic: written out, not taken from the lists. */
 START_TEST(what_cannot_work_is_refused)
 {
-    EXPECT_REFUSED(sigma_length_share, INSOLE_R(-0.01));
-    EXPECT_REFUSED(sigma_ahead_rad, INSOLE_R(-0.01));
-    EXPECT_REFUSED(shown_steps, 0);
+    EXPECT_REFUSED(walk.sigma_length_share, INSOLE_R(-0.01));
+    EXPECT_REFUSED(walk.sigma_ahead_rad, INSOLE_R(-0.01));
+    EXPECT_REFUSED(walk.shown_steps, 0);
     EXPECT_REFUSED(radio_late_s, INSOLE_R(-0.1));
     EXPECT_REFUSED(sigma_fix_m, INSOLE_R(1.0e20)); /* whose square is none */
     EXPECT_REFUSED(trust_sigmas, INSOLE_R(-1.0));
@@ -222,7 +232,7 @@ START_TEST(what_cannot_work_is_refused)
     EXPECT_REFUSED(compass.block_s, INSOLE_R(0.0));
     EXPECT_REFUSED(compass.sigma_block_rad, INSOLE_R(0.0));
     EXPECT_REFUSED(place.sigma_walk_mps, INSOLE_R(-1.0));
-    EXPECT_REFUSED(step.first_steps, 9); /* more than can be held back */
+    EXPECT_REFUSED(walk.step.first_steps, 9); /* more than can be held back */
     EXPECT_REFUSED(auto_start.fixes, 9);
 }
 END_TEST
@@ -243,6 +253,7 @@ Suite *insole_suite(void)
     suite_add(suite, "keys of the rest bias", every_key_of_the_rest_bias_has_its_range);
     suite_add(suite, "keys of the attitude", every_key_of_the_attitude_has_its_range);
     suite_add(suite, "keys of the steps", every_key_of_the_steps_has_its_range);
+    suite_add(suite, "keys of the walk", every_key_of_the_walk_has_its_range);
     suite_add(suite, "keys of the lengths", every_key_of_the_lengths_has_its_range);
     suite_add(suite, "keys of the compass", every_key_of_the_compass_has_its_range);
     suite_add(suite, "keys of the automatic start", every_key_of_the_automatic_start_has_its_range);

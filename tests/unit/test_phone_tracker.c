@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/phone_tracker.h"
 
-#include "phone_walk.h"
+#include "hand_walk.h"
 #include "suite.h"
+
+static rig_t rig;
 
 /* One step more or less at either end of a walk, and half of one that is under way. */
 #define STEPS_OFF_M (1.5 * HAND_STEP_M)

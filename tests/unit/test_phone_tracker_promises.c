@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
+#include "hand_walk.h"
 #include "insole/base/snapshot.h"
 #include "insole/track/phone_tracker.h"
-#include "phone_walk.h"
 #include "refusal.h"
 #include "suite.h"
 
 enum { SHORT = 2600, MOST_READINGS = 40 };
 
 static insole_fix_t reference[HAND_SAMPLES];
-static rig_t other;
+static rig_t rig, other;
 
 /* A walk with everything that a phone has. */
 static rig_case_t full_case(bool has_start)

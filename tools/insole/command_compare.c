@@ -209,7 +209,7 @@ static bool run(const arguments_t *arguments, failure_t *failure)
 static const option_t options[] = {
     {"methods", "A,B,...",
      "the methods to compare: " METHOD_FOOT_NAMES ";\n"
-     "with --tracker phone:\n" METHOD_PHONE_NAMES},
+     "with --tracker phone:\n" METHOD_PHONE_PAPERS ",\n" METHOD_PHONE_OTHERS},
     REPLAY_OPTIONS,
     {"rate", "HZ", "rows of the tracks per second (default 10); 0: one per reading"},
     {"plot", "FILE", "draw all tracks, and the truth if there is one, as SVG"},

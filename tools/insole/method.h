@@ -39,10 +39,10 @@ typedef enum {
 } method_t;
 
 /** For help. */
-#define METHOD_FOOT_NAMES "ins, pdr, wifi, two-order or best"
-#define METHOD_PHONE_NAMES                                                                         \
-    "pdr-gyro, pdr, wifi-kde, wifi-ml, ekf, ukf, kf-const, ekf-const, ukf-const, ml-shift, pf,\n"  \
-    "pf-kde, wpf, zee or best"
+#define METHOD_FOOT_NAMES   "ins, pdr, wifi, two-order or best"
+#define METHOD_PHONE_PAPERS "pdr-gyro, pdr, wifi-kde, wifi-ml, ekf, ukf, kf-const, ekf-const"
+#define METHOD_PHONE_OTHERS "ukf-const, ml-shift, pf, pf-kde, wpf, zee or best"
+#define METHOD_PHONE_NAMES  METHOD_PHONE_PAPERS ", " METHOD_PHONE_OTHERS
 
 bool tracker_parse(const char *name, tracker_t *tracker, failure_t *failure);
 

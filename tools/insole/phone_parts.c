@@ -139,7 +139,9 @@ static bool set_up_states(phone_parts_t *parts, const phone_settings_t *settings
     if (is_constant) {
         fusion.process = fusion.measurement = INSOLE_STEP_CONSTANT;
     }
-    return insole_kde_fix_init(&parts->kde_fix, &settings->kde_fix) == INSOLE_OK &&
+    parts->library.gait.heading = &parts->walk_heading;
+    return insole_walk_heading_init(&parts->walk_heading, &settings->walk_heading) == INSOLE_OK &&
+           insole_kde_fix_init(&parts->kde_fix, &settings->kde_fix) == INSOLE_OK &&
            insole_ml_fix_init(&parts->ml_fix, &settings->ml_fix) == INSOLE_OK &&
            insole_step_fusion_init(&parts->step_fusion, &fusion) == INSOLE_OK &&
            insole_ml_shift_init(&parts->ml_shift, &settings->ml_shift) == INSOLE_OK &&

@@ -31,6 +31,7 @@ typedef struct {
     insole_phone_tracker_config_t config;
     insole_phone_parts_t library;
     const insole_radio_map_t *map; /**< NULL: the method has no use for it, or there is none */
+    insole_walk_heading_t walk_heading;
     insole_step_fusion_t step_fusion;
     insole_ml_shift_t ml_shift;
     insole_walker_ekf_t walker_ekf;

@@ -8,7 +8,7 @@
  *  phone points and where the gait goes stays the same while the phone is carried in the same way,
  *  so its mean over the last steps is far better than each, and turns are those of the phone. When
  *  the position changes, or the phone is tipped over, the mean begins anew. Which position it is,
- *  carry.h tells, if it is there; without it the gait's direction counts always.
+ *  carry.h tells, if it is there; without it, or until it knows, the setting `faces` does.
  *
  *      insole_phone_walk_init(&walk, &insole_phone_walk_defaults, &gait);
  *      on each sample, after the attitude:
@@ -43,6 +43,8 @@ extern "C" {
         "1-sigma between where the phone points and where a step goes")                           \
     KEY(INT, shown_steps, 2, 1, 9, "steps",                                                       \
         "so many peaks in a row are shown before it is sure that this is a walk; 9 = never")      \
+    KEY(CHOICE, faces, 0, 0, 1, "ahead|any",                                                      \
+        "where no carrying position is told: the phone points ahead, or lies in any way")         \
     KEY(CHOICE, gait, 0, 0, 1, "mean|step", "whose direction a step has that goes by the gait")   \
     KEY(REAL, gait_keep, 0.93, 0.0, 0.999, "", "kept from step to step of that mean")             \
     KEY(REAL, sigma_gait_rad, 0.1, 0.0, 3.0, "rad", "1-sigma of the best mean")                   \
@@ -111,6 +113,10 @@ bool insole_phone_walk_work(insole_phone_walk_t *walk);
 
 /** The carrying position as the forest numbers it; INSOLE_CARRY_NONE where nothing tells it. */
 int32_t insole_phone_walk_position(const insole_phone_walk_t *walk);
+
+/** Whether the way that is shown has a direction: by the gait it has none before the first step is
+ *  told. */
+bool insole_phone_walk_is_directed(const insole_phone_walk_t *walk);
 
 /** Where the walker goes, as far as a phone can tell while no step is made, n. */
 insole_turn_t insole_phone_walk_ahead(const insole_phone_walk_t *walk);

@@ -1,4 +1,4 @@
-/** @file phone_walk.h  Somebody walks with a phone in the hand, and the phone tracker follows.
+/** @file hand_walk.h  Somebody walks with a phone in the hand, and the phone tracker follows.
  *
  *      walk_legs(&usual_hand, L_SHAPE, 5);        samples, readings of the compass, scans, truth
  *      rig_case_t c = usual_case();
@@ -10,8 +10,8 @@
  *
  *  SPDX-License-Identifier: MIT
  */
-#ifndef INSOLE_TESTS_PHONE_WALK_H
-#define INSOLE_TESTS_PHONE_WALK_H
+#ifndef INSOLE_TESTS_HAND_WALK_H
+#define INSOLE_TESTS_HAND_WALK_H
 
 #include "fingerprints.h"
 #include "fixes.h"
@@ -159,7 +159,6 @@ typedef struct {
 
 static insole_fix_t fixes[HAND_SAMPLES];
 static uint32_t fix_count;
-static rig_t rig;
 
 static inline insole_start_t start_of(const hand_t *hand, bool has_heading)
 {
@@ -189,7 +188,7 @@ static inline rig_case_t usual_case(const hand_t *hand)
 
 static inline insole_phone_parts_t parts_of(rig_t *r, const rig_case_t *c)
 {
-    insole_phone_parts_t parts = {c->attitude, {NULL, NULL}, {NULL, NULL}};
+    insole_phone_parts_t parts = {.attitude = c->attitude};
     parts.filter.calls = c->filter;
     parts.filter.state = c->filter == &insole_ml_shift_calls ? (void *)&r->shift : &r->fusion;
     if (c->hears) {

@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The forest that is shipped: grown on simulated walkers, judged on others.
+
+    carry_table.py --insole build/bin/insole                       how good it is
+    carry_table.py --insole build/bin/insole --write               grows src/sense/carry_table.c anew
+    carry_table.py --insole build/bin/insole --check               is the committed one what comes out?
+
+Each walker carries the phone in each of four positions, turned in any way but in the hand and at
+the ear, where it is as people hold it. Those it is judged on, and how their phones lie, are none of
+those it is grown on.
+"""
+import argparse
+import concurrent.futures
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import program as support  # noqa: E402
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+TABLE = ROOT / "src" / "sense" / "carry_table.c"
+POSITIONS = ("hand", "ear", "swing", "pocket")
+GROWN, JUDGED = range(1, 17), range(1001, 1013)
+
+
+def simulate(program, position, seed):
+    """The log of one walker; the building and the errands are those of the office."""
+    scenario = (ROOT / "maps" / "office" / "handheld").read_text(encoding="ascii")
+    folder = program.folder / f"{position}-{seed}"
+    path = ROOT / "maps" / "office" / f".{position}-{seed}"
+    path.write_text(scenario + f"\nphone.pose = {position}\nphone.mounting = random\n"
+                    "radio.model = off\nphone.rate_hz = 50\n", encoding="ascii")
+    try:
+        program.must("simulate", path, "--out", folder, "--seed", seed)
+    finally:
+        path.unlink()
+    log = program.folder / f"{position}-{seed}.csv"
+    lines = (folder / "log.csv").read_text(encoding="ascii").splitlines()
+    log.write_text("t,ax,ay,az\n" + "\n".join(",".join(line.split(",")[1:5]) for line in lines
+                                              if line.startswith("imu,")) + "\n", encoding="ascii")
+    for file in folder.iterdir():
+        file.unlink()
+    return log
+
+
+def make_index(program, name, seeds, jobs):
+    path = program.folder / name
+    tasks = [(position, seed) for seed in seeds for position in POSITIONS]
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        logs = list(pool.map(lambda task: simulate(program, *task), tasks))
+    path.write_text("file,person,position\n" + "".join(
+        f"{log.name},{seed},{position}\n" for log, (position, seed) in zip(logs, tasks)),
+        encoding="ascii")
+    return path
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--insole", required=True)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--write", action="store_true")
+    parser.add_argument("--check", action="store_true")
+    given = parser.parse_args()
+    with support.Program(given.insole) as program:
+        grown = make_index(program, "grown.csv", GROWN, given.jobs)
+        judged = make_index(program, "judged.csv", JUDGED, given.jobs)
+        out = TABLE if given.write else program.folder / "carry_table.c"
+        classes = ",".join(POSITIONS)
+        print(program.must("train-carry", grown, "--test", judged, "--classes", classes, "--name",
+                           "insole_carry", "--out", out).decode(), end="")
+        if given.check and out.read_bytes() != TABLE.read_bytes():
+            sys.exit(f"{TABLE.name} is not what comes out: grow it anew with --write")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
