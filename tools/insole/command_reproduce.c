@@ -9,7 +9,7 @@
 #include "memory.h"
 #include "output.h"
 #include "reproduce.h"
-#include "wifi_shift.h"
+#include "reproduce_wifi_shift.h"
 
 enum { RUNS = 20 };
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "wifi_shift.h"
+#include "reproduce_wifi_shift.h"
 
 #ifdef INSOLE_HOST_HAS_SIMULATOR
 

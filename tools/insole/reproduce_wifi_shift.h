@@ -1,5 +1,5 @@
-/** @file wifi_shift.h  Tables I to IV and figure 7 of [WifiShift] again: what was measured beside
- * what was printed.
+/** @file reproduce_wifi_shift.h  Tables I to IV and figure 7 of [WifiShift] again: what was
+ * measured beside what was printed.
  *
  *  Three paths, and one survey of fingerprints for all. Each walk is replayed by every row, and by
  *  those of table IV with fewer access points in the radio map as well. All rows have the same
@@ -12,8 +12,8 @@
  *
  *  SPDX-License-Identifier: MIT
  */
-#ifndef INSOLE_HOST_WIFI_SHIFT_H
-#define INSOLE_HOST_WIFI_SHIFT_H
+#ifndef INSOLE_HOST_REPRODUCE_WIFI_SHIFT_H
+#define INSOLE_HOST_REPRODUCE_WIFI_SHIFT_H
 
 #include "reproduce.h"
 
