@@ -131,8 +131,8 @@ static void draw_even(const insole_cloud_source_t *source, insole_particle_t *pa
 }
 
 /* One normal point with the covariance of the source, by its triangular root. */
-static void draw_place(const insole_cloud_source_t *source, insole_particle_t *particle,
-                       insole_rng_t *rng)
+static void draw_normal(const insole_cloud_source_t *source, insole_particle_t *particle,
+                        insole_rng_t *rng)
 {
     insole_real_t first, second;
     insole_rng_normals(rng, &first, &second);
@@ -141,6 +141,16 @@ static void draw_place(const insole_cloud_source_t *source, insole_particle_t *p
     insole_real_t root_y = insole_sqrt(insole_max(ZERO, source->var_y_m2 - root_xy * root_xy));
     particle->x_m = source->x_m + root_x * first;
     particle->y_m = source->y_m + root_xy * first + root_y * second;
+}
+
+static void draw_place(const insole_cloud_source_t *source, insole_particle_t *particle,
+                       insole_rng_t *rng)
+{
+    if (source->is_even) {
+        draw_even(source, particle, rng);
+    } else {
+        draw_normal(source, particle, rng);
+    }
 }
 
 static void draw_walk(const insole_cloud_source_t *source, insole_particle_t *particle,
@@ -162,7 +172,7 @@ void insole_cloud_source_draw(const insole_cloud_source_t *source, insole_partic
     particle->log_weight = INSOLE_PARTICLE_DEAD;
     int attempts = source->is_even ? ATTEMPTS_EVEN : ATTEMPTS;
     for (int i = 0; i < attempts && !insole_particle_lives(particle); i++) {
-        (source->is_even ? draw_even : draw_place)(source, particle, rng);
+        draw_place(source, particle, rng);
         if (!plan || insole_floor_plan_inside(plan, particle->x_m, particle->y_m)) {
             particle->log_weight = ZERO;
         }
