@@ -8,7 +8,6 @@
 
 /* A pair of a node and an access point costs about so many particles. */
 #define PARTICLES_PER_PAIR 3u
-
 /* After so many deaths of all the cloud is as wide as it gets. */
 #define DEATHS_MAX 6u
 
@@ -29,8 +28,8 @@ insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
         return filter ? status : INSOLE_ERR_NULL;
     }
     *filter = (insole_particle_filter_t){.config = *config};
-    bool is_soft = config->walls == INSOLE_WALLS_SOFT;
-    filter->weighing.walls = is_soft ? INSOLE_WALLS_OFF : (insole_walls_t)config->walls;
+    filter->weighing.walls =
+        config->walls == INSOLE_WALLS_SOFT ? INSOLE_WALLS_OFF : (insole_walls_t)config->walls;
     insole_rng_seed(&filter->rng, seed);
     status = insole_step_weighing_init(&filter->steps, config);
     return status != INSOLE_OK ? status : insole_rss_field_init(&filter->field, &config->field);
@@ -80,8 +79,7 @@ insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filt
     filter->count = cloud->count;
     filter->has_bias = cloud->bias != NULL;
     filter->has_fix = false;
-    filter->since_start = 0;
-    filter->deaths = 0;
+    filter->since_start = filter->deaths = 0;
     begin_drawing(filter, source);
     return INSOLE_OK;
 }
@@ -94,13 +92,17 @@ static void take_stride(insole_particle_filter_t *filter, const insole_evidence_
     insole_cloud_source_walk(&filter->reach, &filter->weighing.stride);
 }
 
+static bool is_idle(const insole_particle_filter_t *filter)
+{
+    return filter && filter->count > 0 && filter->phase == INSOLE_PARTICLES_IDLE;
+}
+
 insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
                                              const insole_building_t *building,
                                              const insole_evidence_t *news)
 {
-    bool is_idle = filter && filter->count > 0 && filter->phase == INSOLE_PARTICLES_IDLE;
     insole_status_t status = insole_evidence_check(news);
-    status = status == INSOLE_OK && !is_idle ? INSOLE_ERR_STATE : status;
+    status = status == INSOLE_OK && !is_idle(filter) ? INSOLE_ERR_STATE : status;
     if (status == INSOLE_OK) {
         status = insole_step_weighing_begin(&filter->steps, &filter->config, news, filter->has_bias,
                                             building && building->plan);
@@ -155,9 +157,7 @@ static void end_weighing(insole_particle_filter_t *filter, const insole_cloud_t 
         insole_rss_field_learn(&filter->field);
         filter->counts.scans++;
     }
-    if (filter->weighing.news.has_stride && filter->deaths > 0) {
-        filter->deaths--;
-    }
+    filter->deaths -= filter->weighing.news.has_stride && filter->deaths > 0 ? 1u : 0u;
     begin_sum(filter, cloud);
 }
 

@@ -218,7 +218,14 @@ static const option_t options[] = {
      "two-order: the second stage of [TwoOrder] as printed;\n"
      "wifi: radio alone, which needs no IMU;\n"
      "ins: inertial navigation with zero-velocity updates, nothing else;\n"
-     "pdr: strides of modelled length in the inertial direction"},
+     "pdr: strides of modelled length in the inertial direction.\n"
+     "With --tracker phone\n"
+     "best: six states, or particles where a plan is known (default);\n"
+     "pdr, pdr-gyro: steps alone, level by gravity and gyro or by the gyro;\n"
+     "wifi-kde, wifi-ml: fingerprints alone, by kernels or the likeliest;\n"
+     "ekf, ukf: steps and fixes by the filters of [PhoneEKF], [PhoneUKF];\n"
+     "kf-const, ekf-const, ukf-const: their rivals with constant covariances;\n"
+     "ml-shift: that of [WifiShift]; pf, pf-kde: particles weighed by strengths, by fixes"},
     REPLAY_OPTIONS,
     {"rate", "HZ", "rows of the track per second (default 10); 0: one per reading"},
     {"smooth", NULL, "ins, pdr: what comes after a moment counts for it too; rows come late"},

@@ -26,7 +26,8 @@ void help_version(FILE *file)
 void help_program(FILE *file)
 {
     fputs(
-        "insole finds where a walking person is, from the log of an inertial sensor on the shoe.\n"
+        "insole finds where a walking person is, from the log of an inertial sensor on the shoe,\n"
+        "or of a phone that is carried (--tracker phone).\n"
         "\n"
         "First steps: record a log of lines  imu,t,ax,ay,az,gx,gy,gz  (s, m/s^2, rad/s), standing\n"
         "still for two seconds before the first step, and look at it:\n"

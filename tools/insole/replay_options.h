@@ -16,7 +16,7 @@
     {"plan", "FILE", "floor plan: its walls hold the track; a folder that is replayed may bring\n"\
      "its own plan.csv, aps.csv and radiomap.csv"},                                               \
     {"aps", "FILE", "access points: radio in the log holds the track"},                           \
-    {"radiomap", "FILE", "fingerprints, as `insole radiomap` makes them: radio in the log of a\n"  \
+    {"radiomap", "FILE", "fingerprints, as `insole radiomap` makes them: radio in the log of a\n" \
      "phone holds its track; the foot tracker leaves them aside"},                                \
     {"use", "rss,range", "which radio counts: rss, range or both (default)"},                     \
     {"seed", "N", "of the particles' random numbers (default 1); equal seeds give equal\n"        \
