@@ -10,7 +10,8 @@
 /* Beyond, wide is wide; infinity may be among it. */
 #define WIDE_MAX INSOLE_R(1e6)
 
-enum { ATTEMPTS = 8 };
+/* Of a plan's rectangle little may be walkable. */
+enum { ATTEMPTS = 8, ATTEMPTS_EVEN = 100 };
 
 insole_cloud_source_t insole_cloud_source(const insole_cloud_fix_t *fix, insole_real_t sigma_scale)
 {
@@ -23,6 +24,28 @@ insole_cloud_source_t insole_cloud_source(const insole_cloud_fix_t *fix, insole_
                                     .sigma_offset_rad = insole_sqrt(fix->var_offset_rad2),
                                     .scale = fix->scale,
                                     .sigma_scale = sigma_scale};
+    return source;
+}
+
+/* Variance of what lies evenly on a length. */
+static insole_real_t even_m2(insole_real_t length_m)
+{
+    return insole_square(length_m) / INSOLE_R(12.0);
+}
+
+insole_cloud_source_t insole_cloud_source_everywhere(const insole_floor_plan_t *plan,
+                                                     insole_real_t sigma_scale)
+{
+    insole_real_t width_m = plan->cell_m * (insole_real_t)plan->columns;
+    insole_real_t height_m = plan->cell_m * (insole_real_t)plan->rows;
+    insole_cloud_source_t source = {.x_m = plan->origin_x_m + HALF * width_m,
+                                    .y_m = plan->origin_y_m + HALF * height_m,
+                                    .var_x_m2 = even_m2(width_m),
+                                    .var_y_m2 = even_m2(height_m),
+                                    .sigma_offset_rad = INSOLE_PI,
+                                    .scale = ONE,
+                                    .sigma_scale = sigma_scale,
+                                    .is_even = true};
     return source;
 }
 
@@ -96,9 +119,20 @@ void insole_cloud_source_mix(insole_cloud_source_t *source, const insole_cloud_s
     source->var_y_m2 = mixed(source->var_y_m2, other->var_y_m2, share) + between * y * y;
 }
 
+/* One point of the rectangle. */
+static void draw_even(const insole_cloud_source_t *source, insole_particle_t *particle,
+                      insole_rng_t *rng)
+{
+    insole_real_t side = insole_sqrt(INSOLE_R(12.0));
+    particle->x_m =
+        source->x_m + side * insole_sqrt(source->var_x_m2) * (insole_rng_uniform(rng) - HALF);
+    particle->y_m =
+        source->y_m + side * insole_sqrt(source->var_y_m2) * (insole_rng_uniform(rng) - HALF);
+}
+
 /* One normal point with the covariance of the source, by its triangular root. */
-static void draw_place(const insole_cloud_source_t *source, insole_particle_t *particle,
-                       insole_rng_t *rng)
+static void draw_normal(const insole_cloud_source_t *source, insole_particle_t *particle,
+                        insole_rng_t *rng)
 {
     insole_real_t first, second;
     insole_rng_normals(rng, &first, &second);
@@ -107,6 +141,16 @@ static void draw_place(const insole_cloud_source_t *source, insole_particle_t *p
     insole_real_t root_y = insole_sqrt(insole_max(ZERO, source->var_y_m2 - root_xy * root_xy));
     particle->x_m = source->x_m + root_x * first;
     particle->y_m = source->y_m + root_xy * first + root_y * second;
+}
+
+static void draw_place(const insole_cloud_source_t *source, insole_particle_t *particle,
+                       insole_rng_t *rng)
+{
+    if (source->is_even) {
+        draw_even(source, particle, rng);
+    } else {
+        draw_normal(source, particle, rng);
+    }
 }
 
 static void draw_walk(const insole_cloud_source_t *source, insole_particle_t *particle,
@@ -126,7 +170,8 @@ void insole_cloud_source_draw(const insole_cloud_source_t *source, insole_partic
 {
     draw_walk(source, particle, rng);
     particle->log_weight = INSOLE_PARTICLE_DEAD;
-    for (int i = 0; i < ATTEMPTS && !insole_particle_lives(particle); i++) {
+    int attempts = source->is_even ? ATTEMPTS_EVEN : ATTEMPTS;
+    for (int i = 0; i < attempts && !insole_particle_lives(particle); i++) {
         draw_place(source, particle, rng);
         if (!plan || insole_floor_plan_inside(plan, particle->x_m, particle->y_m)) {
             particle->log_weight = ZERO;

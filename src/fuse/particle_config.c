@@ -21,6 +21,12 @@ const insole_particle_filter_config_t insole_particle_filter_phone = INSOLE_PART
 const insole_particle_filter_config_t insole_particle_filter_phone_plain =
     INSOLE_PARTICLE_FILTER_PHONE_PLAIN;
 
+const insole_particle_filter_config_t insole_particle_filter_phone_wpf =
+    INSOLE_PARTICLE_FILTER_PHONE_WPF;
+
+const insole_particle_filter_config_t insole_particle_filter_phone_zee =
+    INSOLE_PARTICLE_FILTER_PHONE_ZEE;
+
 insole_status_t insole_particle_config_check(const insole_particle_filter_config_t *config)
 {
     if (!config) {

@@ -14,6 +14,18 @@ const insole_step_cloud_config_t insole_step_cloud_defaults = {
 const insole_step_cloud_config_t insole_step_cloud_plain = {
     INSOLE_STEP_CLOUD_KEYS(INSOLE_CONFIG_DEFAULT) INSOLE_PARTICLE_FILTER_PHONE_PLAIN};
 
+const insole_step_cloud_config_t insole_step_cloud_wpf = {.process = INSOLE_STEP_CLOUD_CONSTANT,
+                                                          .measurement = INSOLE_STEP_CLOUD_CONSTANT,
+                                                          .sigma_fix_m = INSOLE_R(6.0),
+                                                          .particles =
+                                                              INSOLE_PARTICLE_FILTER_PHONE_WPF};
+
+const insole_step_cloud_config_t insole_step_cloud_zee = {.process = INSOLE_STEP_CLOUD_CONSTANT,
+                                                          .measurement = INSOLE_STEP_CLOUD_TOLD,
+                                                          .sigma_fix_m = INSOLE_R(4.0),
+                                                          .particles =
+                                                              INSOLE_PARTICLE_FILTER_PHONE_ZEE};
+
 static insole_status_t refuse(insole_step_cloud_t *cloud, insole_status_t why)
 {
     cloud->refused++;
@@ -47,6 +59,8 @@ insole_status_t insole_step_cloud_init(insole_step_cloud_t *cloud,
     static const insole_step_cloud_t blank;
     *cloud = blank;
     cloud->process = config->process;
+    cloud->measurement = config->measurement;
+    cloud->sigma_fix_m = config->sigma_fix_m;
     cloud->cloud = *memory;
     cloud->building.plan = plan;
     cloud->ring = insole_ring(INSOLE_STEP_CLOUD_WAITING);
@@ -77,6 +91,26 @@ insole_status_t insole_step_cloud_start(insole_step_cloud_t *cloud,
     }
     cloud->has_fix = origin->is_radio;
     cloud->fix_us = origin->t_us;
+    cloud->ring = insole_ring(INSOLE_STEP_CLOUD_WAITING);
+    return INSOLE_OK;
+}
+
+insole_status_t insole_step_cloud_start_anywhere(insole_step_cloud_t *cloud)
+{
+    if (!cloud) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!cloud->building.plan) {
+        return refuse(cloud, INSOLE_ERR_STATE);
+    }
+    insole_cloud_source_t source =
+        insole_cloud_source_everywhere(cloud->building.plan, cloud->filter.config.sigma_scale);
+    insole_status_t status =
+        insole_particle_filter_start_from(&cloud->filter, &cloud->cloud, &source, NULL);
+    if (status != INSOLE_OK) {
+        return refuse(cloud, status);
+    }
+    cloud->has_fix = false;
     cloud->ring = insole_ring(INSOLE_STEP_CLOUD_WAITING);
     return INSOLE_OK;
 }
@@ -167,6 +201,9 @@ insole_status_t insole_step_cloud_fix(insole_step_cloud_t *cloud, const insole_s
         return refuse(cloud, INSOLE_ERR_TIME);
     }
     insole_step_cloud_news_t news = {.kind = INSOLE_STEP_CLOUD_FIX, .fix = *fix};
+    if (cloud->measurement == INSOLE_STEP_CLOUD_CONSTANT) {
+        news.fix.cov_m2 = insole_sym2_circle(insole_square(cloud->sigma_fix_m));
+    }
     cloud->has_fix = true;
     cloud->fix_us = fix->t_us;
     return tell(cloud, &news);
@@ -293,5 +330,32 @@ static insole_status_t answer_state(const void *state, insole_step_filter_answer
     return status;
 }
 
-const insole_step_filter_calls_t insole_step_cloud_calls = {
-    begin_state, step_state, fix_state, compass_state, work_state, answer_state};
+const insole_step_filter_calls_t insole_step_cloud_calls = {.start = begin_state,
+                                                            .step = step_state,
+                                                            .fix = fix_state,
+                                                            .compass = compass_state,
+                                                            .work = work_state,
+                                                            .answer = answer_state};
+
+static insole_status_t search_state(void *state, uint64_t t_us)
+{
+    (void)t_us;
+    return insole_step_cloud_start_anywhere(state);
+}
+
+static insole_status_t pass_over(void *state, const insole_spot_fix_t *fix)
+{
+    insole_step_cloud_t *cloud = state;
+    if (!cloud || !fix) {
+        return INSOLE_ERR_NULL;
+    }
+    return is_started(cloud) ? INSOLE_OK : refuse(cloud, INSOLE_ERR_STATE);
+}
+
+const insole_step_filter_calls_t insole_step_cloud_zee_calls = {.start = begin_state,
+                                                                .start_anywhere = search_state,
+                                                                .step = step_state,
+                                                                .fix = pass_over,
+                                                                .compass = compass_state,
+                                                                .work = work_state,
+                                                                .answer = answer_state};

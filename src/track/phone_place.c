@@ -141,6 +141,12 @@ static insole_status_t begin_undirected(insole_phone_place_t *p, uint64_t t_us)
 
 static insole_status_t begin_at_origin(insole_phone_place_t *p, uint64_t t_us)
 {
+    const insole_step_filter_calls_t *calls = p->filter.calls;
+    if (calls->start_anywhere && calls->start_anywhere(p->filter.state, t_us) == INSOLE_OK) {
+        p->is_started = true;
+        p->starts++;
+        return INSOLE_OK;
+    }
     const insole_start_t origin = {.t_us = t_us};
     p->start = origin;
     insole_step_filter_begin_t at = at_start(p, t_us);

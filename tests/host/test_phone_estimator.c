@@ -124,9 +124,9 @@ static const char start_line[] = "start,0,4,4,0,0.2,0.05\n";
 
 /* ---- walks --------------------------------------------------------------------------------- */
 
-static const method_t walkers[] = {METHOD_PHONE_BEST, METHOD_PHONE_PDR, METHOD_PDR_GYRO,
-                                   METHOD_EKF,        METHOD_UKF,       METHOD_KF_CONST,
-                                   METHOD_EKF_CONST,  METHOD_UKF_CONST, METHOD_ML_SHIFT};
+static const method_t walkers[] = {
+    METHOD_PHONE_BEST, METHOD_PHONE_PDR, METHOD_PDR_GYRO, METHOD_EKF, METHOD_UKF, METHOD_KF_CONST,
+    METHOD_EKF_CONST,  METHOD_UKF_CONST, METHOD_ML_SHIFT, METHOD_WPF, METHOD_ZEE};
 
 START_TEST(a_told_start_leads_every_method_to_the_end)
 {
@@ -355,6 +355,87 @@ START_TEST(methods_are_made_of_their_parts)
 }
 END_TEST
 
+/* Of a method with a cloud: how many particles, and whether it is told the walls. */
+START_TEST(rivals_have_clouds_of_their_own)
+{
+    static const struct {
+        method_t method;
+        uint32_t particles;
+        bool takes_plan;
+    } clouds[] = {{METHOD_PF, 1000u, false},       {METHOD_PF_KDE, 1000u, false},
+                  {METHOD_WPF, 1000u, true},       {METHOD_ZEE, 10000u, true},
+                  {METHOD_PHONE_BEST, 500u, true}, {METHOD_ML_SHIFT, 0u, false}};
+    static const insole_floor_plan_t plan;
+    const insole_building_t building = {.plan = &plan};
+    settings_t settings;
+    settings_init(&settings);
+    phone_parts_t *parts = malloc(sizeof *parts);
+    estimator_setup_t setup = setup_of(&settings, clouds[_i].method, true);
+    setup.building = &building;
+    ck_assert(phone_parts_init(parts, &setup));
+    ck_assert_uint_eq(parts->memory.count, clouds[_i].particles);
+    ck_assert((parts->step_cloud.building.plan == &plan) == clouds[_i].takes_plan);
+    phone_parts_free(parts);
+    setup.particles = 77u;
+    ck_assert(phone_parts_init(parts, &setup));
+    ck_assert_uint_eq(parts->memory.count, clouds[_i].particles > 0u ? 77u : 0u);
+    phone_parts_free(parts);
+    free(parts);
+}
+END_TEST
+
+START_TEST(fixes_may_be_made_by_another_solver)
+{
+    settings_t settings;
+    phone_parts_t *parts = malloc(sizeof *parts);
+    settings_init(&settings);
+    for (int i = METHOD_PHONE_BEST; i < METHODS; i++) {
+        estimator_setup_t setup = setup_of(&settings, (method_t)i, true);
+        ck_assert(config_set(&settings, "phone_parts.fix", "ml", &result.failure));
+        ck_assert(phone_parts_init(parts, &setup));
+        const insole_radio_solver_calls_t *calls = parts->library.solver.calls;
+        bool is_free = !method_is_steps_alone((method_t)i) && i != METHOD_PF;
+        ck_assert((calls == &insole_ml_fix_calls) == is_free);
+        ck_assert(!is_free || parts->library.solver.state == &parts->ml_fix);
+        phone_parts_free(parts);
+        ck_assert(config_set(&settings, "phone_parts.fix", "kde", &result.failure));
+        ck_assert(phone_parts_init(parts, &setup));
+        ck_assert((parts->library.solver.calls == &insole_kde_fix_calls) == is_free);
+        phone_parts_free(parts);
+    }
+    free(parts);
+}
+END_TEST
+
+/* zee alone looks for itself all over a plan, and takes its first fix for a start. */
+START_TEST(zee_needs_no_start)
+{
+    const char *plan = scratch("plan.csv");
+    FILE *file = fopen(plan, "wb");
+    fputs("outline,0,0,60,0,60,60,0,60\n", file);
+    fclose(file);
+    write_logs(PHONE_LOGS_END_S, "");
+    replay_request_t request = request_of(METHOD_ZEE);
+    ck_assert(site_open(&site, plan, NULL, NULL, &request.settings.propagation, &result.failure));
+    request.site = &site;
+    request.particles = 2000u;
+    run(&request);
+    ck_assert_uint_eq(result.facts.phone.starts, 1u);
+    ck_assert_uint_eq(result.events[EVENT_SCAN], 0u);
+    ASSERT_AT_LEAST(result.facts.last.var_x_m2, 25.0, "m^2");
+    ASSERT_AT_MOST(fabs(result.facts.last.x_m - 30.0), 25.0, "m");
+    clear();
+    site_free(&site);
+    open_site(&request);
+    run(&request);
+    ck_assert_uint_eq(result.facts.phone.starts, 1u);
+    ASSERT_AT_MOST(worst_error_m(&result.rows, 2.0), 20.0, "m");
+    ASSERT_AT_MOST(fabs(result.rows.rows[20].x_m - 4.0), 6.0, "m");
+    clear();
+    site_free(&site);
+}
+END_TEST
+
 START_TEST(constant_covariances_are_those_of_the_rivals_alone)
 {
     settings_t settings;
@@ -378,7 +459,7 @@ END_TEST
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("phone_estimator");
-    suite_add_loop(suite, "told start", a_told_start_leads_every_method_to_the_end, 9);
+    suite_add_loop(suite, "told start", a_told_start_leads_every_method_to_the_end, 11);
     suite_add_loop(suite, "found start", radio_finds_a_start_that_nobody_tells, 2);
     suite_add(suite, "steps alone", without_fingerprints_the_steps_are_left);
     suite_add_loop(suite, "radio alone", radio_alone_gives_a_row_for_each_scan, 2);
@@ -388,6 +469,9 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "trouble", trouble_does_not_stop_the_track, 6);
     suite_add(suite, "settings", settings_the_library_does_not_take_are_told);
     suite_add(suite, "parts", methods_are_made_of_their_parts);
+    suite_add_loop(suite, "clouds", rivals_have_clouds_of_their_own, 6);
+    suite_add(suite, "solver", fixes_may_be_made_by_another_solver);
+    suite_add(suite, "zee", zee_needs_no_start);
     suite_add(suite, "constant", constant_covariances_are_those_of_the_rivals_alone);
     return suite;
 }

@@ -338,12 +338,57 @@ END_TEST
 
 START_TEST(it_is_put_elsewhere)
 {
-    insole_cloud_source_t source = {1, 2, 3, 4, 5, INSOLE_R(0.6), INSOLE_R(0.7), INSOLE_R(0.8), 9};
+    insole_cloud_source_t source = {1, 2,    3, 4, 5, INSOLE_R(0.6), INSOLE_R(0.7), INSOLE_R(0.8),
+                                    9, false};
     insole_cloud_source_put(&source, insole_spot(-1, -2), insole_sym2(13, 14, 15));
     ck_assert(source.x_m == -1 && source.y_m == -2);
     ck_assert(source.var_x_m2 == 13 && source.cov_xy_m2 == 14 && source.var_y_m2 == 15);
     ck_assert(source.offset_rad == INSOLE_R(0.6) && source.sigma_offset_rad == INSOLE_R(0.7));
     ck_assert(source.scale == INSOLE_R(0.8) && source.sigma_scale == 9);
+}
+END_TEST
+
+/* The part of a plan's rectangle that is drawn into is where one can walk, evenly. */
+START_TEST(everywhere_is_even_and_walkable)
+{
+    static drawing_t d;
+    int west = 0, all = 4000;
+    draw_begin(&d);
+    draw_box(&d, INSOLE_LINE_OUTLINE, 4.0, 100.0, -20.0, 140.0, -10.0);
+    draw_box(&d, INSOLE_LINE_HOLE, 4.0, 120.0, -19.0, 140.0, -10.0);
+    ck_assert_int_eq(draw_build(&d), INSOLE_OK);
+    insole_cloud_source_t s = insole_cloud_source_everywhere(&d.plan, INSOLE_R(0.1));
+    insole_rng_seed(&rng, 9u);
+    for (int i = 0; i < all; i++) {
+        insole_particle_t p;
+        insole_cloud_source_draw(&s, &p, &d.plan, &rng);
+        ck_assert(insole_particle_lives(&p));
+        ck_assert(insole_floor_plan_inside(&d.plan, p.x_m, p.y_m));
+        ck_assert((double)p.offset_rad >= -3.1416 && (double)p.offset_rad <= 3.1416);
+        west += (double)p.x_m < 120.0 ? 1 : 0;
+    }
+    ASSERT_NEAR((double)west / all, 200.0 / 220.0, 0.02, ""); /* areas 20 x 10 and 20 x 1 */
+}
+END_TEST
+
+/* Its variances are those of its rectangle. */
+START_TEST(everywhere_is_as_wide_as_the_plan)
+{
+    static drawing_t d;
+    draw_begin(&d);
+    draw_box(&d, INSOLE_LINE_OUTLINE, 4.0, 100.0, -20.0, 140.0, -10.0);
+    ck_assert_int_eq(draw_build(&d), INSOLE_OK);
+    insole_cloud_source_t s = insole_cloud_source_everywhere(&d.plan, INSOLE_R(0.1));
+    double wide_m = (double)d.plan.cell_m * d.plan.columns;
+    double high_m = (double)d.plan.cell_m * d.plan.rows;
+    ASSERT_AT_LEAST(wide_m, 40.0, "m");
+    ASSERT_NEAR(s.x_m, (double)d.plan.origin_x_m + 0.5 * wide_m, 1e-4, "m");
+    ASSERT_NEAR(s.y_m, (double)d.plan.origin_y_m + 0.5 * high_m, 1e-4, "m");
+    ASSERT_NEAR(s.var_x_m2, wide_m * wide_m / 12.0, 1e-3, "m2");
+    ASSERT_NEAR(s.var_y_m2, high_m * high_m / 12.0, 1e-3, "m2");
+    ASSERT_AT_LEAST(s.sigma_offset_rad, 3.14, "rad");
+    ASSERT_NEAR(s.sigma_scale, 0.1, 1e-7, "");
+    ck_assert(s.is_even);
 }
 END_TEST
 
@@ -366,5 +411,7 @@ Suite *insole_suite(void)
     suite_add(suite, "aside", copies_go_aside_by_a_share);
     suite_add(suite, "aside a wall", no_copy_goes_through_a_wall);
     suite_add(suite, "put", it_is_put_elsewhere);
+    suite_add(suite, "everywhere", everywhere_is_even_and_walkable);
+    suite_add(suite, "everywhere's width", everywhere_is_as_wide_as_the_plan);
     return suite;
 }

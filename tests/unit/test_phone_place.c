@@ -383,6 +383,55 @@ START_TEST(without_start_and_radio_it_begins_at_the_origin)
 END_TEST
 
 /* A start that comes afterwards moves the walk to where it tells. */
+static insole_status_t fake_search(void *state, uint64_t t_us)
+{
+    fake_t *f = state;
+    f->started++;
+    f->begin.t_us = t_us;
+    f->begin.spot = insole_spot(7, 8);
+    f->at.spot = f->begin.spot;
+    return f->starts;
+}
+
+/* One that looks for the place itself is not told that it is at the origin; when it cannot, it is.
+ */
+START_TEST(a_filter_that_searches_is_told_no_origin)
+{
+    insole_step_filter_calls_t calls = learning_calls;
+    const insole_step_filter_t searching = {&calls, &fake};
+    calls.start_anywhere = fake_search;
+    set_up(&searching, false);
+    ck_assert_int_eq(step(2.0, 0.3), INSOLE_OK);
+    ck_assert(place.is_started);
+    ck_assert_uint_eq(place.starts, 1u);
+    ck_assert_uint_eq(fake.started, 1u);
+    ck_assert_uint_eq(fake.stepped, 1u);
+    ASSERT_NEAR(fake.begin.spot.x_m, 7.0, 0.0, "m");
+    set_up(&searching, false);
+    fake.starts = INSOLE_ERR_STATE;
+    (void)step(2.0, 0.3);
+    ck_assert(!place.is_started);
+    ck_assert_uint_eq(fake.started, 2u);
+    ASSERT_NEAR(fake.begin.spot.x_m, 0.0, 0.0, "m");
+}
+END_TEST
+
+/* A start, or fixes to come, go before a search. */
+START_TEST(who_is_told_does_not_search)
+{
+    insole_step_filter_calls_t calls = learning_calls;
+    const insole_step_filter_t searching = {&calls, &fake};
+    calls.start_anywhere = fake_search;
+    set_up(&searching, _i == 0);
+    if (_i == 1) {
+        tell(directed(1.0, 3.0, 4.0, 0.0));
+    }
+    (void)step(2.0, 0.3);
+    ck_assert_uint_eq(fake.started, _i == 0 ? 0u : 1u);
+    ck_assert(_i == 0 || (double)fake.begin.spot.x_m < 3.5);
+}
+END_TEST
+
 START_TEST(a_start_told_after_the_origin_counts)
 {
     set_up(&plain, false);
@@ -751,6 +800,8 @@ Suite *insole_suite(void)
     suite_add(suite, "place and fixes", fixes_tell_the_direction_from_the_place_that_was_told);
     suite_add(suite, "guessed", while_the_direction_is_sought_the_place_is_guessed);
     suite_add_loop(suite, "origin", without_start_and_radio_it_begins_at_the_origin, 2);
+    suite_add(suite, "search", a_filter_that_searches_is_told_no_origin);
+    suite_add_loop(suite, "no search", who_is_told_does_not_search, 2);
     suite_add(suite, "start after the origin", a_start_told_after_the_origin_counts);
     suite_add(suite, "steps wait", with_radio_steps_wait_for_fixes);
     suite_add_loop(suite, "fixes alone", fixes_alone_tell_place_and_direction, 5);

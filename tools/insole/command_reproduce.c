@@ -9,6 +9,7 @@
 #include "memory.h"
 #include "output.h"
 #include "reproduce.h"
+#include "reproduce_wifi_shift.h"
 
 enum { RUNS = 20 };
 
@@ -23,8 +24,9 @@ static const reproduce_paper_t *find_paper(const char *name, failure_t *failure)
     }
     failure_usage(failure, "insole reproduce: unknown paper %.40s: expected", name);
     for (const reproduce_paper_t *const *paper = papers; *paper != NULL; paper++) {
-        failure_add(failure, "%s %s", paper == papers ? "" : ",", (*paper)->name);
+        failure_add(failure, " %s,", (*paper)->name);
     }
+    failure_add(failure, " %s", WIFI_SHIFT_NAME);
     return NULL;
 }
 
@@ -59,11 +61,31 @@ static bool measure(const arguments_t *arguments, const reproduce_paper_t *paper
     return is_good && output_flush(stdout, "-", failure);
 }
 
+/* Three paths, with more and less access points, are no table of one walk's rows. */
+static bool measure_wifi_shift(const arguments_t *arguments, failure_t *failure)
+{
+    reproduce_request_t request;
+    if (!parse(arguments, &request, failure)) {
+        return false;
+    }
+    wifi_shift_t *study = memory_new(1u, sizeof *study);
+    bool is_good = wifi_shift_begin(study, &request, failure) && wifi_shift_measure(study, failure);
+    if (is_good) {
+        (options_has(arguments, "json") ? wifi_shift_json : wifi_shift_print)(study, stdout);
+    }
+    wifi_shift_free(study);
+    free(study);
+    return is_good && output_flush(stdout, "-", failure);
+}
+
 static bool run(const arguments_t *arguments, failure_t *failure)
 {
     reproduce_request_t request;
     if (arguments->operand_count != 1u) {
         return failure_usage(failure, "insole reproduce: expected the name of one paper");
+    }
+    if (strcmp(arguments->operands[0], WIFI_SHIFT_NAME) == 0) {
+        return measure_wifi_shift(arguments, failure);
     }
     const reproduce_paper_t *paper = find_paper(arguments->operands[0], failure);
     return paper != NULL && parse(arguments, &request, failure) &&
@@ -80,13 +102,14 @@ static const option_t options[] = {
 
 const command_t command_reproduce = {
     "reproduce",
-    "TwoOrder|PhoneEKF",
+    "TwoOrder|PhoneEKF|WifiShift",
     "a paper's table again: what is measured beside what is printed",
     "Simulates walks with the paper's setup and replays each by the paper's own parts and by\n"
     "our defaults. The table has the errors, and the printed ones beside them.\n"
     "\n"
     "  insole reproduce TwoOrder\n"
-    "  insole reproduce PhoneEKF --runs 100 --out figures\n",
+    "  insole reproduce PhoneEKF --runs 100 --out figures\n"
+    "  insole reproduce WifiShift --runs 4\n",
     options,
     run};
 

@@ -56,8 +56,13 @@
     ROW(plain_cloud, phone.plain_cloud, kind, name, __VA_ARGS__)
 #define PLAIN_CLOUD_PARTICLES_ROW(kind, name, ...)                                                 \
     ROW(plain_cloud, phone.plain_cloud.particles, kind, name, __VA_ARGS__)
-#define KDE_FIX_ROW(kind, name, ...) ROW(kde_fix, phone.kde_fix, kind, name, __VA_ARGS__)
-#define ML_FIX_ROW(kind, name, ...)  ROW(ml_fix, phone.ml_fix, kind, name, __VA_ARGS__)
+#define PHONE_PARTS_ROW(kind, name, ...)   ROW(phone_parts, phone.parts, kind, name, __VA_ARGS__)
+#define WPF_ROW(kind, name, ...)           ROW(wpf, phone.wpf, kind, name, __VA_ARGS__)
+#define WPF_PARTICLES_ROW(kind, name, ...) ROW(wpf, phone.wpf.particles, kind, name, __VA_ARGS__)
+#define ZEE_ROW(kind, name, ...)           ROW(zee, phone.zee, kind, name, __VA_ARGS__)
+#define ZEE_PARTICLES_ROW(kind, name, ...) ROW(zee, phone.zee.particles, kind, name, __VA_ARGS__)
+#define KDE_FIX_ROW(kind, name, ...)       ROW(kde_fix, phone.kde_fix, kind, name, __VA_ARGS__)
+#define ML_FIX_ROW(kind, name, ...)        ROW(ml_fix, phone.ml_fix, kind, name, __VA_ARGS__)
 
 /* clang-format off */
 static const config_key_t keys[] = {
@@ -75,6 +80,7 @@ static const config_key_t keys[] = {
     INSOLE_PROPAGATION_KEYS(PROPAGATION_ROW)
     INSOLE_RSS_FIX_KEYS(RSS_FIX_ROW)
     INSOLE_RANGE_FIX_KEYS(RANGE_FIX_ROW)
+    PHONE_PARTS_KEYS(PHONE_PARTS_ROW)
     INSOLE_PHONE_TRACKER_KEYS(PHONE_TRACKER_ROW)
     INSOLE_PHONE_WALK_KEYS(PHONE_WALK_ROW)
     INSOLE_PHONE_PLACE_KEYS(PHONE_PLACE_ROW)
@@ -92,6 +98,10 @@ static const config_key_t keys[] = {
     INSOLE_PARTICLE_FILTER_KEYS(STEP_CLOUD_PARTICLES_ROW)
     INSOLE_STEP_CLOUD_KEYS(PLAIN_CLOUD_ROW)
     INSOLE_PARTICLE_FILTER_KEYS(PLAIN_CLOUD_PARTICLES_ROW)
+    INSOLE_STEP_CLOUD_KEYS(WPF_ROW)
+    INSOLE_PARTICLE_FILTER_KEYS(WPF_PARTICLES_ROW)
+    INSOLE_STEP_CLOUD_KEYS(ZEE_ROW)
+    INSOLE_PARTICLE_FILTER_KEYS(ZEE_PARTICLES_ROW)
     INSOLE_KDE_FIX_KEYS(KDE_FIX_ROW)
     INSOLE_ML_FIX_KEYS(ML_FIX_ROW)
 };

@@ -22,7 +22,9 @@ static const char *const names[METHODS] = {[METHOD_BEST] = "best",
                                            [METHOD_UKF_CONST] = "ukf-const",
                                            [METHOD_ML_SHIFT] = "ml-shift",
                                            [METHOD_PF] = "pf",
-                                           [METHOD_PF_KDE] = "pf-kde"};
+                                           [METHOD_PF_KDE] = "pf-kde",
+                                           [METHOD_WPF] = "wpf",
+                                           [METHOD_ZEE] = "zee"};
 
 bool tracker_parse(const char *name, tracker_t *tracker, failure_t *failure)
 {

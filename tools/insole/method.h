@@ -33,13 +33,15 @@ typedef enum {
     METHOD_ML_SHIFT, /**< [WifiShift] */
     METHOD_PF,       /**< rivals of [PhoneEKF] 4: particles weighed by the strengths heard */
     METHOD_PF_KDE,   /**< or by the fix of kernels and its covariance */
+    METHOD_WPF, /**< rivals of [WifiShift] IV: particles weighed by the likeliest fingerprint */
+    METHOD_ZEE, /**< or by walls alone */
     METHODS
 } method_t;
 
 /** For help. */
 #define METHOD_FOOT_NAMES   "ins, pdr, wifi, two-order or best"
 #define METHOD_PHONE_PAPERS "pdr-gyro, pdr, wifi-kde, wifi-ml, ekf, ukf, kf-const, ekf-const"
-#define METHOD_PHONE_OTHERS "ukf-const, ml-shift, pf, pf-kde or best"
+#define METHOD_PHONE_OTHERS "ukf-const, ml-shift, pf, pf-kde, wpf, zee or best"
 #define METHOD_PHONE_NAMES  METHOD_PHONE_PAPERS ", " METHOD_PHONE_OTHERS
 
 bool tracker_parse(const char *name, tracker_t *tracker, failure_t *failure);

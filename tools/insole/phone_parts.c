@@ -41,16 +41,35 @@ static recipe_t recipe_of(method_t method, bool has_plan)
                              false},
         [METHOD_PF] = {insole_attitude_ekf, &phone_rival_solver, &phone_rival_filter, false},
         [METHOD_PF_KDE] = {insole_attitude_ekf, &insole_kde_fix_calls, &insole_step_cloud_calls,
-                           false}};
+                           false},
+        [METHOD_WPF] = {insole_attitude_ekf, &insole_ml_fix_calls, &insole_step_cloud_calls, false},
+        [METHOD_ZEE] = {insole_attitude_ekf, &insole_ml_fix_calls, &insole_step_cloud_zee_calls,
+                        false}};
     return recipes[method];
 }
 
-static bool is_cloud(const recipe_t *recipe)
-{
-    return recipe->filter == &insole_step_cloud_calls || recipe->filter == &phone_rival_filter;
-}
-
 /* ---- particles -------------------------------------------------------------------------- */
+
+/* What a method's cloud is like; NULL: it has none. */
+typedef struct {
+    const insole_step_cloud_config_t *config;
+    uint32_t particles;
+    bool takes_plan;
+} flock_t;
+
+static flock_t flock_of(const phone_settings_t *settings, const recipe_t *recipe, method_t method)
+{
+    const flock_t none = {NULL, 0u, false}, best = {&settings->step_cloud, PHONE_PARTICLES, true};
+    const flock_t rivals[METHODS] = {
+        [METHOD_PF] = {&settings->plain_cloud, PHONE_RIVAL_PARTICLES, false},
+        [METHOD_PF_KDE] = {&settings->plain_cloud, PHONE_RIVAL_PARTICLES, false},
+        [METHOD_WPF] = {&settings->wpf, PHONE_RIVAL_PARTICLES, true},
+        [METHOD_ZEE] = {&settings->zee, PHONE_ZEE_PARTICLES, true}};
+    if (rivals[method].config != NULL) {
+        return rivals[method];
+    }
+    return recipe->filter == &insole_step_cloud_calls ? best : none;
+}
 
 static void lend_memory(phone_parts_t *parts, uint32_t particles)
 {
@@ -60,20 +79,15 @@ static void lend_memory(phone_parts_t *parts, uint32_t particles)
     memory->bias = memory_new(particles, sizeof *memory->bias);
 }
 
-static bool set_up_cloud(phone_parts_t *parts, const estimator_setup_t *setup)
+static bool set_up_cloud(phone_parts_t *parts, const estimator_setup_t *setup, const flock_t *flock)
 {
-    const phone_settings_t *settings = &setup->settings->phone;
-    bool is_rival = setup->method == METHOD_PF || setup->method == METHOD_PF_KDE;
     const insole_floor_plan_t *plan =
-        setup->building != NULL && !is_rival ? setup->building->plan : NULL;
-    lend_memory(parts, setup->particles > 0u ? setup->particles
-                       : is_rival            ? (uint32_t)PHONE_RIVAL_PARTICLES
-                                             : (uint32_t)PHONE_PARTICLES);
+        setup->building != NULL && flock->takes_plan ? setup->building->plan : NULL;
+    lend_memory(parts, setup->particles > 0u ? setup->particles : flock->particles);
     phone_rival_init(&parts->rival, &parts->kde_fix, &parts->step_cloud,
                      parts->map != NULL ? parts->map->point_count : 0u);
-    return insole_step_cloud_init(&parts->step_cloud,
-                                  is_rival ? &settings->plain_cloud : &settings->step_cloud,
-                                  &parts->memory, plan, setup->seed) == INSOLE_OK;
+    return insole_step_cloud_init(&parts->step_cloud, flock->config, &parts->memory, plan,
+                                  setup->seed) == INSOLE_OK;
 }
 
 /* ---- states ----------------------------------------------------------------------------- */
@@ -91,7 +105,7 @@ static void *filter_state(phone_parts_t *parts, const insole_step_filter_calls_t
     if (calls == &phone_rival_filter) {
         return &parts->rival;
     }
-    if (calls == &insole_step_cloud_calls) {
+    if (calls == &insole_step_cloud_calls || calls == &insole_step_cloud_zee_calls) {
         return &parts->step_cloud;
     }
     if (calls == &insole_ml_shift_calls) {
@@ -99,6 +113,24 @@ static void *filter_state(phone_parts_t *parts, const insole_step_filter_calls_t
     }
     return calls == &insole_walker_ekf_calls ? (void *)&parts->walker_ekf
                                              : (void *)&parts->step_fusion;
+}
+
+/* The settings may ask for another than the method's. */
+static const insole_radio_solver_calls_t *solver_of(const recipe_t *recipe,
+                                                    const phone_settings_t *settings)
+{
+    static const insole_radio_solver_calls_t *const asked[] = {NULL, &insole_kde_fix_calls,
+                                                               &insole_ml_fix_calls};
+    bool is_free = recipe->solver != NULL && recipe->solver != &phone_rival_solver;
+    return is_free && settings->parts.fix > 0 ? asked[settings->parts.fix] : recipe->solver;
+}
+
+/* Whatever direction it gives. */
+static void start_by_first_fix(insole_auto_start_config_t *config)
+{
+    config->method = INSOLE_AUTO_START_MOVED;
+    config->fixes = 1;
+    config->refine_rad = INSOLE_R(3.2);
 }
 
 static bool set_up_states(phone_parts_t *parts, const phone_settings_t *settings, bool is_constant)
@@ -121,18 +153,23 @@ bool phone_parts_init(phone_parts_t *parts, const estimator_setup_t *setup)
     const phone_settings_t *settings = &setup->settings->phone;
     bool has_plan = setup->building != NULL && setup->building->plan != NULL;
     const recipe_t recipe = recipe_of(setup->method, has_plan);
+    const flock_t flock = flock_of(settings, &recipe, setup->method);
+    const insole_radio_solver_calls_t *solver = solver_of(&recipe, settings);
     memset(parts, 0, sizeof *parts);
     parts->config = settings->tracker;
     parts->config.screen = setup->settings->fusion.foot.screen;
     parts->config.still_bias = setup->settings->fusion.foot.still_bias;
-    parts->map = recipe.solver != NULL ? setup->map : NULL;
+    if (setup->method == METHOD_ZEE) {
+        start_by_first_fix(&parts->config.auto_start);
+    }
+    parts->map = solver != NULL ? setup->map : NULL;
     parts->library.attitude = recipe.attitude;
-    parts->library.solver.calls = parts->map != NULL ? recipe.solver : NULL;
-    parts->library.solver.state = solver_state(parts, recipe.solver);
+    parts->library.solver.calls = parts->map != NULL ? solver : NULL;
+    parts->library.solver.state = solver_state(parts, solver);
     parts->library.filter.calls = recipe.filter;
     parts->library.filter.state = filter_state(parts, recipe.filter);
     return set_up_states(parts, settings, recipe.is_constant) &&
-           (!is_cloud(&recipe) || set_up_cloud(parts, setup));
+           (flock.config == NULL || set_up_cloud(parts, setup, &flock));
 }
 
 void phone_parts_free(phone_parts_t *parts)

@@ -4,7 +4,8 @@
  *      insole_phone_tracker_init(&tracker, &parts.config, &parts.library, parts.map);
  *      phone_parts_free(&parts);
  *
- *  `best` is a cloud of particles where a plan is known, and else the filter of six states.
+ *  `best` is a cloud of particles where a plan is known, and else the filter of six states. `zee`
+ *  begins with the first fix, whatever direction it gives; without a radio map, all over the plan.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -22,8 +23,8 @@
 #include "estimator_setup.h"
 #include "phone_rival.h"
 
-/** Particles where nobody tells: the paper's rivals have more. */
-enum { PHONE_PARTICLES = 500, PHONE_RIVAL_PARTICLES = 1000 };
+/** Particles where nobody tells: the papers' rivals have more, most that which may be anywhere. */
+enum { PHONE_PARTICLES = 500, PHONE_RIVAL_PARTICLES = 1000, PHONE_ZEE_PARTICLES = 10000 };
 
 /** States of all parts; those in use are pointed at. It stays where it is. */
 typedef struct {

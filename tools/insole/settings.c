@@ -2,12 +2,14 @@
 #include "settings.h"
 
 static const sensor_config_t sensor_defaults = {SENSOR_KEYS(INSOLE_CONFIG_DEFAULT)};
+static const phone_parts_config_t parts_defaults = {PHONE_PARTS_KEYS(INSOLE_CONFIG_DEFAULT)};
 
 void settings_init(settings_t *settings)
 {
     settings->sensor = sensor_defaults;
     settings->fusion = insole_foot_fusion_defaults;
     settings->propagation = insole_propagation_defaults;
+    settings->phone.parts = parts_defaults;
     settings->phone.tracker = insole_phone_tracker_defaults;
     settings->phone.walk_heading = insole_walk_heading_defaults;
     settings->phone.carry = insole_carry_defaults;
@@ -16,6 +18,8 @@ void settings_init(settings_t *settings)
     settings->phone.walker_ekf = insole_walker_ekf_defaults;
     settings->phone.step_cloud = insole_step_cloud_defaults;
     settings->phone.plain_cloud = insole_step_cloud_plain;
+    settings->phone.wpf = insole_step_cloud_wpf;
+    settings->phone.zee = insole_step_cloud_zee;
     settings->phone.kde_fix = insole_kde_fix_defaults;
     settings->phone.ml_fix = insole_ml_fix_defaults;
 }

@@ -34,9 +34,21 @@ typedef struct {
     SENSOR_KEYS(INSOLE_CONFIG_MEMBER)
 } sensor_config_t;
 
+/* clang-format off */
+/** What the methods of a phone are made of. */
+#define PHONE_PARTS_KEYS(KEY)                                                                     \
+    KEY(CHOICE, fix, 0, 0, 2, "own|kde|ml",                                                 \
+        "what makes fixes of scans: the method's own, or another")
+/* clang-format on */
+
+typedef struct {
+    PHONE_PARTS_KEYS(INSOLE_CONFIG_MEMBER)
+} phone_parts_config_t;
+
 /** Those of the phone tracker and of all that it may be made of. Its screen and its rests have the
  *  settings of the foot's. */
 typedef struct {
+    phone_parts_config_t parts;
     insole_phone_tracker_config_t tracker;
     insole_walk_heading_config_t walk_heading;
     insole_carry_config_t carry;
@@ -44,7 +56,8 @@ typedef struct {
     insole_ml_shift_config_t ml_shift;
     insole_walker_ekf_config_t walker_ekf;
     insole_step_cloud_config_t step_cloud;
-    insole_step_cloud_config_t plain_cloud; /**< of the rivals */
+    insole_step_cloud_config_t plain_cloud; /**< of the rivals of [PhoneEKF] */
+    insole_step_cloud_config_t wpf, zee;    /**< of those of [WifiShift] */
     insole_kde_fix_config_t kde_fix;
     insole_ml_fix_config_t ml_fix;
 } phone_settings_t;

@@ -27,10 +27,16 @@ typedef struct {
     insole_real_t offset_rad;       /**< from directions in n to directions in m */
     insole_real_t sigma_offset_rad; /**< pi or more: any direction */
     insole_real_t scale, sigma_scale;
+    bool is_even; /**< drawn evenly over the rectangle of these variances, which no turn has */
 } insole_cloud_source_t;
 
 /** The summary of a cloud whose particles are to have such a scatter of scale. */
 insole_cloud_source_t insole_cloud_source(const insole_cloud_fix_t *fix, insole_real_t sigma_scale);
+
+/** All of a plan, in any direction: what is known before anything is.
+ *  @param plan  not NULL */
+insole_cloud_source_t insole_cloud_source_everywhere(const insole_floor_plan_t *plan,
+                                                     insole_real_t sigma_scale);
 
 /** Moves it there, with this covariance of its place; offset and scale stay. */
 void insole_cloud_source_put(insole_cloud_source_t *source, insole_spot_t spot,

@@ -2,7 +2,8 @@
  *
  *  Source  [TwoOrder] 3.2, 4.1: `insole_particle_filter_two_order`; ours: the defaults, for a shoe,
  *          and `insole_particle_filter_phone`, for the steps of a phone and fixes by fingerprints;
- *          [PhoneEKF] 4.1: `insole_particle_filter_phone_plain`.
+ *          [PhoneEKF] 4.1: `insole_particle_filter_phone_plain`; [WifiShift] I, IV:
+ *          `insole_particle_filter_phone_wpf`, `insole_particle_filter_phone_zee`.
  *
  *      insole_particle_filter_config_t config = insole_particle_filter_defaults;
  *      config.walls = INSOLE_WALLS_OFF;
@@ -126,6 +127,34 @@ extern const insole_particle_filter_config_t insole_particle_filter_phone;
         .bias_s = INSOLE_R(1.0), INSOLE_PARTICLE_FILTER_STEPS                                      \
     }
 extern const insole_particle_filter_config_t insole_particle_filter_phone_plain;
+
+/** The fingerprint particle filter that [WifiShift] compares with, its reference 16: steps as told
+ *  in directions that differ and wander, a wall kills. */
+#define INSOLE_PARTICLE_FILTER_PHONE_WPF                                                           \
+    {                                                                                              \
+        .sigma_wander_rad = INSOLE_R(0.02), .scale_memory = INSOLE_R(1.0),                         \
+        .walls = INSOLE_WALLS_CROSSES, .soft_weight = INSOLE_R(1.0), .bias_s = INSOLE_R(1.0),      \
+        INSOLE_PARTICLE_FILTER_STEPS                                                               \
+    }
+extern const insole_particle_filter_config_t insole_particle_filter_phone_wpf;
+
+/** The augmented particle filter that [WifiShift] compares with, its reference 18: place, offset
+ *  and scale are unknown, a wall kills, and nothing else weighs. No common spread: the cloud may be
+ *  in several places. */
+#define INSOLE_PARTICLE_FILTER_PHONE_ZEE                                                           \
+    {                                                                                              \
+        .length_share = INSOLE_R(0.1), .sigma_heading_rad = INSOLE_R(0.05),                        \
+        .sigma_wander_rad = INSOLE_R(0.015), .sigma_scale = INSOLE_R(0.1),                         \
+        .scale_memory = INSOLE_R(0.999), .scatter = INSOLE_SCATTER_APART,                          \
+        .walls = INSOLE_WALLS_CROSSES, .resample_share = INSOLE_R(0.5),                            \
+        .soft_weight = INSOLE_R(1.0), .bias_s = INSOLE_R(1.0), .search_power = INSOLE_R(1.0),      \
+        .blind_power = INSOLE_R(1.0), .blind_search_power = INSOLE_R(1.0),                         \
+        .search_sigma_m = INSOLE_R(1.0), .search_offset_rad = INSOLE_R(1.0),                       \
+        .recover_sigma_m = INSOLE_R(1.0), .recover_offset_rad = INSOLE_R(0.1), .field = {          \
+            INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_DEFAULT)                                           \
+        }                                                                                          \
+    }
+extern const insole_particle_filter_config_t insole_particle_filter_phone_zee;
 
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
 insole_status_t insole_particle_config_check(const insole_particle_filter_config_t *config);

@@ -1,6 +1,7 @@
 /** @file step_cloud.h  Steps of a phone, fixes and walls made one position: a cloud of particles.
  *
- *  Source  ours; [PhoneEKF] 4.1: the particle filters that it is compared with.
+ *  Source  ours; [PhoneEKF] 4.1, [WifiShift] I and IV: the particle filters that they are compared
+ *          with.
  *  Frames  n: level, the frame of the paces' headings.  m: map; heading in m = heading in n +
  *          offset, which is a part of what is estimated.
  *
@@ -20,6 +21,21 @@
  *      on each fix:   insole_step_cloud_fix(&cloud, &fix);
  *      in between:    insole_step_cloud_work(&cloud, 50);
  *      if (insole_step_cloud_answer(&cloud, &answer) == INSOLE_OK) use(&answer);
+ *
+ *  `insole_step_cloud_wpf`: [WifiShift]'s reference 16, to be told the likeliest fingerprint and a
+ *  true start. Weights are multiplied by exp(-d^2 / (2 sigma^2)) of the distance d to that fix, and
+ *  a wall that is crossed makes them 0. The text calls sigma "the variance of RSSs", which is no
+ *  length: here it is one length for all fixes. It leaves open how directions differ: here each
+ *  particle keeps one of its own, which wanders by 0.02 rad a step, beside what each step has (with
+ *  `sigma_wander_rad` 0 nothing but the start's lasts, and errors are twice as large); and when
+ *  there is a resampling: here below half the effective number. The text's estimate, "according to
+ *  all weights", is their mean.
+ *
+ *  `insole_step_cloud_zee`: its reference 18. Particles have a place, an offset and a scale, spread
+ *  over the walkable plan or about the first fix ("used to constrain the initial location"); from
+ *  then on only walls weigh, and a compass where there is one. The text leaves open the spread of
+ *  scales (0.1 here), what wanders, and what follows when all have died: drawn anew about the last
+ *  answer. It has no look back from a later time; so has none here.
  *
  *  What is told waits in a queue until it is worked in. When the queue is full the call that tells
  *  more works the oldest in first: nothing is lost, and the result is the same to the bit however
@@ -44,7 +60,10 @@ enum { INSOLE_STEP_CLOUD_TOLD = 0, INSOLE_STEP_CLOUD_CONSTANT = 1 };
 /* clang-format off */
 #define INSOLE_STEP_CLOUD_KEYS(KEY)                                                               \
     KEY(CHOICE, process, 1, 0, 1, "told|constant",                                                \
-        "variances of length and heading of a pace count beside the particles' settings, or not")
+        "variances of length and heading of a pace count beside the particles' settings, or not") \
+    KEY(CHOICE, measurement, 0, 0, 1, "told|constant", "covariance of a fix")                     \
+    KEY(REAL, sigma_fix_m, 4.0, 0.001, 1000.0, "m",                                               \
+        "1-sigma of each coordinate of a fix, when constant")
 /* clang-format on */
 
 typedef struct {
@@ -54,6 +73,8 @@ typedef struct {
 
 extern const insole_step_cloud_config_t insole_step_cloud_defaults;
 extern const insole_step_cloud_config_t insole_step_cloud_plain;
+extern const insole_step_cloud_config_t insole_step_cloud_wpf;
+extern const insole_step_cloud_config_t insole_step_cloud_zee;
 
 /** What is known at the start. */
 typedef struct {
@@ -89,7 +110,8 @@ typedef struct {
 } insole_step_cloud_answer_t;
 
 typedef struct {
-    int32_t process;
+    int32_t process, measurement;
+    insole_real_t sigma_fix_m;
     insole_cloud_t cloud;       /**< the caller's */
     insole_building_t building; /**< the plan alone */
     insole_particle_filter_t filter;
@@ -114,6 +136,11 @@ insole_status_t insole_step_cloud_init(insole_step_cloud_t *cloud,
  *          or a variance below 0 */
 insole_status_t insole_step_cloud_start(insole_step_cloud_t *cloud,
                                         const insole_step_origin_t *origin);
+
+/** Nothing is known: the cloud is drawn evenly over all of the plan where one can walk, in all
+ *  directions. What waits is dropped.
+ *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE without a plan */
+insole_status_t insole_step_cloud_start_anywhere(insole_step_cloud_t *cloud);
 
 /** @return INSOLE_ERR_NULL; INSOLE_ERR_STATE before the start; INSOLE_ERR_VALUE as
  *          insole_pace_check() */
@@ -145,6 +172,9 @@ insole_status_t insole_step_cloud_answer(const insole_step_cloud_t *cloud,
 
 /** For a tracker; the state is an `insole_step_cloud_t`. */
 extern const insole_step_filter_calls_t insole_step_cloud_calls;
+
+/** The same for one that needs no start and passes fixes over: walls do the work. */
+extern const insole_step_filter_calls_t insole_step_cloud_zee_calls;
 
 #ifdef __cplusplus
 }

@@ -43,6 +43,11 @@ typedef struct {
 /** NULL: the filter has no use for it. */
 typedef struct {
     insole_status_t (*start)(void *state, const insole_step_filter_begin_t *begin);
+
+    /** Nobody tells where the walk begins, and no fix will: the filter looks for the place itself.
+     *  @return other than INSOLE_OK: it cannot */
+    insole_status_t (*start_anywhere)(void *state, uint64_t t_us);
+
     insole_status_t (*step)(void *state, uint64_t t_us, const insole_pace_t *pace);
     insole_status_t (*fix)(void *state, const insole_spot_fix_t *fix);
 

@@ -6,7 +6,8 @@
  *  have in n. One that tells the place alone: the compass tells the direction, or the fixes do
  * (auto_start.h). None: the fixes tell both; a filter that learns the offset begins with the first
  * fix when a compass knows it well enough, another one when auto_start is ready. None, and no fixes
- * to come: the walk begins at (0, 0), and n is m.
+ * to come: a filter that can looks for the place itself; else the walk begins at (0, 0), and n is
+ * m.
  *
  *      insole_phone_place_init(&place, &insole_phone_place_defaults, &auto_start_config, &filter,
  *                              has_radio);
