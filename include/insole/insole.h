@@ -76,6 +76,8 @@
 #include "insole/track/foot_smooth.h"
 #include "insole/track/foot_tracker.h"
 #include "insole/track/foot_walk.h"
+#include "insole/track/fusion_config.h"
+#include "insole/track/fusion_gap.h"
 #include "insole/track/fusion_radio.h"
 
 #endif

@@ -9,19 +9,6 @@
 /* Radio that no stride has fetched for so long is worked in without one. */
 static const uint64_t PATIENCE_US = 2000000u;
 
-const insole_foot_fusion_config_t insole_foot_fusion_defaults = {
-    INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_DEFAULT){
-        INSOLE_FOOT_TRACKER_KEYS(INSOLE_CONFIG_DEFAULT){INSOLE_SCREEN_KEYS(INSOLE_CONFIG_DEFAULT)},
-        {INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_DEFAULT)},
-        {INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_DEFAULT)},
-        {INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_DEFAULT)},
-        {INSOLE_STRIDE_KEYS(INSOLE_CONFIG_DEFAULT)}},
-    {INSOLE_PARTICLE_FILTER_KEYS(INSOLE_CONFIG_DEFAULT){
-        INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_DEFAULT)}},
-    INSOLE_PARTICLE_FILTER_TWO_ORDER,
-    {INSOLE_RSS_FIX_KEYS(INSOLE_CONFIG_DEFAULT)},
-    {INSOLE_RANGE_FIX_KEYS(INSOLE_CONFIG_DEFAULT)}};
-
 /* A heading told so vaguely is compared with the first stride alone. */
 #define VAGUE_RAD INSOLE_R(0.3)
 
@@ -34,24 +21,15 @@ static insole_cloud_t cloud_in(const insole_fusion_memory_t *m)
 static insole_status_t check(const insole_foot_fusion_config_t *config,
                              const insole_fusion_memory_t *memory)
 {
-    if (!(true INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_IN_RANGE))) {
-        return INSOLE_ERR_VALUE;
+    insole_cloud_t cloud = cloud_in(memory);
+    insole_status_t status = insole_fusion_config_check(config);
+    if (status != INSOLE_OK) {
+        return status;
     }
     if (config->lag_s > ZERO && (!memory->past || !memory->late || memory->late_count == 0u)) {
         return INSOLE_ERR_NULL;
     }
-    insole_cloud_t cloud = cloud_in(memory);
-    const insole_status_t parts[] = {insole_foot_config_check(&config->foot),
-                                     insole_particle_config_check(&config->particles),
-                                     insole_particle_config_check(&config->two_order),
-                                     insole_rss_fix_check(&config->rss_fix),
-                                     insole_range_fix_check(&config->range_fix),
-                                     insole_cloud_check(&cloud)};
-    insole_status_t status = INSOLE_OK;
-    for (uint32_t i = 0u; i < sizeof parts / sizeof parts[0]; i++) {
-        status = status == INSOLE_OK ? parts[i] : status;
-    }
-    return status;
+    return insole_cloud_check(&cloud);
 }
 
 insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion,
@@ -150,6 +128,24 @@ static insole_spot_t foot_n(const insole_foot_fusion_t *f)
     return n_m;
 }
 
+/* The cloud's mean, moved on by what the foot has gone since. */
+static void fix_by_particles(const insole_foot_fusion_t *f, insole_fix_t *fix)
+{
+    const insole_cloud_fix_t *cloud = &f->particles.fix;
+    insole_spot_t now = foot_n(f);
+    insole_spot_t gone = {cloud->scale * (now.x_m - f->fixed_n_m.x_m),
+                          cloud->scale * (now.y_m - f->fixed_n_m.y_m)};
+    gone = insole_turn_way(insole_turn(cloud->offset_rad), gone);
+    fix->position_m.x = cloud->x_m + gone.x_m;
+    fix->position_m.y = cloud->y_m + gone.y_m;
+    fix->var_x_m2 = cloud->var_x_m2;
+    fix->cov_xy_m2 = cloud->cov_xy_m2;
+    fix->var_y_m2 = cloud->var_y_m2;
+    fix->heading_rad =
+        insole_wrap_pi(fix->heading_rad - f->foot.anchor.yaw_rad + cloud->offset_rad);
+    fix->var_heading_rad2 = cloud->var_offset_rad2;
+}
+
 /* A start that is told, and what radio says, each as far as it is certain. */
 static void mix_start_and_radio(const insole_foot_fusion_t *f, insole_fix_t *fix)
 {
@@ -168,6 +164,7 @@ static void begin(insole_foot_fusion_t *f, const insole_particle_start_t *start)
     f->has_stride = false;
     f->stride_turn_rad = f->stride_model_m = ZERO;
     f->told_n_m = f->fixed_n_m = foot_n(f);
+    insole_fusion_gap_close(&f->gap);
     f->counts.starts++;
     (void)insole_foot_late_stride(&f->late, 0u, f->told_n_m);
 }
@@ -212,6 +209,39 @@ static void begin_by_radio(insole_foot_fusion_t *f, uint64_t t_us)
     begin(f, &start);
 }
 
+/* The particles go on where the foot seems to have come to, as wide as it has lost its way. */
+static void begin_after_gap(insole_foot_fusion_t *f, const insole_fix_t *foot)
+{
+    insole_fusion_unknown_t lost = insole_fusion_gap_lost(&f->gap);
+    insole_fix_t fix = *foot;
+    fix_by_particles(f, &fix);
+    insole_real_t known_m2 = insole_max(fix.var_x_m2, fix.var_y_m2);
+    insole_real_t var_m2 = known_m2 + lost.m2, offset_rad = f->particles.fix.offset_rad;
+    fix.var_x_m2 = var_m2;
+    (void)insole_fusion_radio_mix(&f->radio, foot_n(f), insole_turn(offset_rad), var_m2, &fix);
+    insole_particle_start_t start = {fix.position_m.x, fix.position_m.y,
+                                     insole_sqrt(insole_min(var_m2, INSOLE_R(1.5) * fix.var_x_m2)),
+                                     offset_rad,
+                                     insole_sqrt(f->particles.fix.var_offset_rad2 + lost.rad2)};
+    begin(f, &start);
+}
+
+/* After a gap radio may say more of the place than what is left of it; it is not waited for long.
+ * What was heard before lies a way back that nobody knows. */
+static void cross_gap(insole_foot_fusion_t *f, const insole_fix_t *foot)
+{
+    insole_fusion_site_t site = site_of(f);
+    bool is_new = f->gap.is_crossed && f->gap.crossed_us == foot->t_us;
+    if (f->gap.is_open && (is_new || !f->gap.is_crossed)) {
+        insole_fusion_radio_forget(&f->radio);
+    }
+    bool waits = insole_fusion_radio_has_aps(&site) && !f->radio.has_fix &&
+                 foot->t_us - f->gap.crossed_us < PATIENCE_US;
+    if (f->gap.is_crossed && f->particles.has_fix && !waits) {
+        begin_after_gap(f, foot);
+    }
+}
+
 static void begin_if_possible(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
     if (is_at_start(f)) {
@@ -219,6 +249,8 @@ static void begin_if_possible(insole_foot_fusion_t *f, const insole_fix_t *foot)
         begin_as_told(f, foot);
     } else if (f->counts.starts == 0u && f->radio.has_fix && f->foot.zupt_ekf.aligned) {
         begin_by_radio(f, foot->t_us);
+    } else {
+        cross_gap(f, foot);
     }
 }
 
@@ -258,7 +290,7 @@ static bool has_news(const insole_foot_fusion_t *f, uint64_t t_us)
 
 static void tell(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
-    if (f->working || f->counts.starts == 0u || !has_news(f, foot->t_us)) {
+    if (f->working || f->counts.starts == 0u || f->gap.is_open || !has_news(f, foot->t_us)) {
         return;
     }
     insole_fusion_site_t site = site_of(f);
@@ -285,24 +317,6 @@ bool insole_foot_fusion_work(insole_foot_fusion_t *fusion, uint32_t particles)
     return fusion->working;
 }
 
-/* The cloud's mean, moved on by what the foot has gone since. */
-static void fix_by_particles(const insole_foot_fusion_t *f, insole_fix_t *fix)
-{
-    const insole_cloud_fix_t *cloud = &f->particles.fix;
-    insole_spot_t now = foot_n(f);
-    insole_spot_t gone = {cloud->scale * (now.x_m - f->fixed_n_m.x_m),
-                          cloud->scale * (now.y_m - f->fixed_n_m.y_m)};
-    gone = insole_turn_way(insole_turn(cloud->offset_rad), gone);
-    fix->position_m.x = cloud->x_m + gone.x_m;
-    fix->position_m.y = cloud->y_m + gone.y_m;
-    fix->var_x_m2 = cloud->var_x_m2;
-    fix->cov_xy_m2 = cloud->cov_xy_m2;
-    fix->var_y_m2 = cloud->var_y_m2;
-    fix->heading_rad =
-        insole_wrap_pi(fix->heading_rad - f->foot.anchor.yaw_rad + cloud->offset_rad);
-    fix->var_heading_rad2 = cloud->var_offset_rad2;
-}
-
 /* A told start that has been reached but not walked from yet is better than the cloud before it. */
 static bool has_cloud(const insole_foot_fusion_t *f)
 {
@@ -324,10 +338,12 @@ static void make_fix(const insole_foot_fusion_t *f, insole_fix_t *fix)
         mix_start_and_radio(f, fix);
     } else if (has_cloud(f)) {
         fix_by_particles(f, fix);
+        insole_fusion_gap_widen(&f->gap, fix);
     } else if (!f->is_told && f->radio.has_fix) {
         (void)insole_fusion_radio_fix(&f->radio, fix);
     }
-    if (fix->state == INSOLE_FIX_TRACK || (fix->state == INSOLE_FIX_LOST && has_cloud(f))) {
+    if (fix->state == INSOLE_FIX_TRACK ||
+        (fix->state == INSOLE_FIX_LOST && has_cloud(f) && !f->gap.is_open)) {
         fix->state = is_sure(f, fix) ? INSOLE_FIX_TRACK : INSOLE_FIX_SEARCH;
     }
 }
@@ -340,6 +356,7 @@ static insole_status_t step(insole_foot_fusion_t *f, insole_fix_t *fix)
         gather_stride(f);
         insole_fusion_site_t site = site_of(f);
         (void)insole_fusion_radio_place(&f->radio, &site, fix->t_us, foot_n(f));
+        (void)insole_fusion_gap_follow(&f->gap, &f->foot, fix);
         begin_if_possible(f, fix);
         tell(f, fix);
         make_fix(f, fix);
@@ -373,28 +390,13 @@ static insole_status_t next_late(insole_foot_fusion_t *f, insole_fix_t *fix)
     return take_late(f, fix);
 }
 
-static insole_status_t next_radio(insole_foot_fusion_t *f, insole_fix_t *fix)
-{
-    if (!f->radio.is_new) {
-        return INSOLE_ERR_STATE;
-    }
-    static const insole_fix_t blank;
-    *fix = blank;
-    fix->state = INSOLE_FIX_TRACK;
-    fix->var_heading_rad2 = insole_square(INSOLE_PI);
-    fix->t_us = f->radio.fix_us;
-    (void)insole_fusion_radio_fix(&f->radio, fix);
-    f->radio.is_new = false;
-    return INSOLE_OK;
-}
-
 insole_status_t insole_foot_fusion_next(insole_foot_fusion_t *fusion, insole_fix_t *fix)
 {
     if (!fusion || !fix) {
         return INSOLE_ERR_NULL;
     }
     if (fusion->config.method == INSOLE_FUSION_WIFI) {
-        return next_radio(fusion, fix);
+        return insole_fusion_radio_take(&fusion->radio, fix);
     }
     return fusion->config.lag_s > ZERO ? next_late(fusion, fix) : step(fusion, fix);
 }

@@ -29,48 +29,15 @@
 #ifndef INSOLE_TRACK_FOOT_FUSION_H
 #define INSOLE_TRACK_FOOT_FUSION_H
 
-#include "insole/fuse/particle_filter.h"
 #include "insole/track/foot_late.h"
 #include "insole/track/foot_tracker.h"
+#include "insole/track/fusion_config.h"
+#include "insole/track/fusion_gap.h"
 #include "insole/track/fusion_radio.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef enum {
-    INSOLE_FUSION_BEST = 0,      /**< whatever is given is used as well as we know how */
-    INSOLE_FUSION_TWO_ORDER = 1, /**< the paper's second stage as printed */
-    INSOLE_FUSION_WIFI = 2       /**< radio alone */
-} insole_foot_fusion_method_t;
-
-/* clang-format off */
-#define INSOLE_FOOT_FUSION_KEYS(KEY)                                                              \
-    KEY(CHOICE, method, 0, 0, 2, "best|two-order|wifi", "what makes the position")                \
-    KEY(REAL, lag_s, 0.0, 0.0, 60.0, "s",                                                         \
-        "each position is told so late, smoothed by what came after; 0 = at once")                \
-    KEY(REAL, sigma_inertial_m, 1.0, 0.01, 100.0, "m",                                            \
-        "two-order: sigma_1 of (34), how far the inertial position is trusted")                   \
-    KEY(REAL, sigma_range_m, 2.0, 0.01, 100.0, "m",                                               \
-        "two-order: sigma_2 of (39), of a range from signal strength")                            \
-    KEY(REAL, unsure_start_m, 0.5, 0.0, 100.0, "m",                                               \
-        "1-sigma added to a start that radio has found")                                          \
-    KEY(REAL, search_sigma_m, 1.0, 0.1, 1000.0, "m",                                              \
-        "a cloud with a larger 1-sigma is still searching")                                       \
-    KEY(REAL, search_margin, 0.05, 0.0, 100.0, "",                                                \
-        "so is one when scans are so much likelier elsewhere, in logarithms")
-/* clang-format on */
-
-typedef struct {
-    INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_MEMBER)
-    insole_foot_tracker_config_t foot;
-    insole_particle_filter_config_t particles;
-    insole_particle_filter_config_t two_order; /**< those of the paper */
-    insole_rss_fix_config_t rss_fix;
-    insole_range_fix_config_t range_fix;
-} insole_foot_fusion_config_t;
-
-extern const insole_foot_fusion_config_t insole_foot_fusion_defaults;
 
 /** What the caller lends. */
 typedef struct {
@@ -96,6 +63,7 @@ typedef struct {
     const insole_building_t *building;
 
     insole_fusion_radio_t radio;
+    insole_fusion_gap_t gap;
 
     insole_evidence_t news;        /**< what the particles are told */
     bool is_told;                  /**< a start that was told has been reached */
