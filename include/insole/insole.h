@@ -77,7 +77,9 @@
 #include "insole/track/foot_tracker.h"
 #include "insole/track/foot_walk.h"
 #include "insole/track/fusion_config.h"
+#include "insole/track/fusion_fix.h"
 #include "insole/track/fusion_gap.h"
 #include "insole/track/fusion_radio.h"
+#include "insole/track/fusion_strides.h"
 
 #endif

@@ -34,3 +34,17 @@ insole_status_t insole_fusion_config_check(const insole_foot_fusion_config_t *co
     }
     return status;
 }
+
+insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,
+                                           insole_real_t lag_s)
+{
+    if (!memory) {
+        return INSOLE_ERR_NULL;
+    }
+    bool is_late = lag_s > INSOLE_R(0.0);
+    if (is_late && (!memory->past || !memory->late || memory->late_count == 0u)) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_cloud_t cloud = insole_fusion_cloud(memory);
+    return insole_cloud_check(&cloud);
+}

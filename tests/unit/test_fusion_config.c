@@ -59,11 +59,38 @@ START_TEST(a_bad_part_spoils_the_whole)
 }
 END_TEST
 
+START_TEST(memory_must_be_there)
+{
+    static insole_particle_t particles[3];
+    static insole_spot_t past[6];
+    static insole_late_row_t late[4];
+    insole_fusion_memory_t memory = {particles, 3, past, 2, late, 4};
+    const insole_real_t lag_s = 2;
+    ck_assert_int_eq(insole_fusion_memory_check(NULL, 0), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, lag_s), INSOLE_OK);
+    insole_cloud_t cloud = insole_fusion_cloud(&memory);
+    ck_assert(cloud.particles == particles && cloud.count == 3);
+    ck_assert(cloud.past == past && cloud.past_strides == 2);
+    memory.late_count = 0;
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, lag_s), INSOLE_ERR_NULL);
+    memory.late = NULL;
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, lag_s), INSOLE_ERR_NULL);
+    memory.past = NULL; /* whatever its strides */
+    ck_assert_uint_eq(insole_fusion_cloud(&memory).past_strides, 0);
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, 0), INSOLE_OK);
+    memory.count = 0;
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, 0), INSOLE_ERR_VALUE);
+    memory.particles = NULL;
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, 0), INSOLE_ERR_NULL);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("fusion_config");
     suite_add(suite, "defaults", defaults_are_those_of_the_parts);
     suite_add(suite, "ranges", every_own_key_has_its_range);
     suite_add(suite, "parts", a_bad_part_spoils_the_whole);
+    suite_add(suite, "memory", memory_must_be_there);
     return suite;
 }

@@ -34,20 +34,11 @@
 #include "insole/track/fusion_config.h"
 #include "insole/track/fusion_gap.h"
 #include "insole/track/fusion_radio.h"
+#include "insole/track/fusion_strides.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/** What the caller lends. */
-typedef struct {
-    insole_particle_t *particles;
-    uint32_t count;
-    insole_spot_t *past;     /**< count x past_strides, for `lag_s`; NULL: no lag */
-    uint32_t past_strides;   /**< as many as a walker makes in `lag_s`, and two more */
-    insole_late_row_t *late; /**< as many as samples come in `lag_s`; NULL: no lag */
-    uint32_t late_count;
-} insole_fusion_memory_t;
 
 typedef struct {
     uint32_t starts;  /**< times the particles were drawn */
@@ -65,15 +56,12 @@ typedef struct {
     insole_fusion_radio_t radio;
     insole_fusion_gap_t gap;
 
-    insole_evidence_t news;        /**< what the particles are told */
-    bool is_told;                  /**< a start that was told has been reached */
-    bool wants_start;              /**< a start is told, and not yet used */
-    bool working;                  /**< the particles have work left */
-    bool has_stride;               /**< strides wait for the particles */
-    insole_real_t stride_turn_rad; /**< the foot's turn over them */
-    insole_real_t stride_model_m;  /**< their length by (33), which the paper walks */
-    insole_spot_t told_n_m;        /**< n, where the stride told last ended */
-    insole_spot_t fixed_n_m;       /**< n, where the foot was at the particles' last fix */
+    insole_evidence_t news; /**< what the particles are told */
+    bool is_told;           /**< a start that was told has been reached */
+    bool wants_start;       /**< a start is told, and not yet used */
+    uint32_t doubt;         /**< strides that the cloud has yet to be good for after a gap */
+    bool working;           /**< the particles have work left */
+    insole_fusion_strides_t strides;
 
     insole_foot_late_t late;
     bool finished;
