@@ -92,7 +92,11 @@
 #include "insole/track/foot_smooth.h"
 #include "insole/track/foot_tracker.h"
 #include "insole/track/foot_walk.h"
+#include "insole/track/fusion_config.h"
+#include "insole/track/fusion_fix.h"
+#include "insole/track/fusion_gap.h"
 #include "insole/track/fusion_radio.h"
+<<<<<<< HEAD
 #include "insole/track/phone_compass.h"
 #include "insole/track/phone_config.h"
 #include "insole/track/phone_place.h"
@@ -100,5 +104,8 @@
 #include "insole/track/phone_tracker.h"
 #include "insole/track/phone_walk.h"
 #include "insole/track/phone_way.h"
+=======
+#include "insole/track/fusion_strides.h"
+>>>>>>> gap
 
 #endif
