@@ -96,7 +96,7 @@
 #include "insole/track/fusion_fix.h"
 #include "insole/track/fusion_gap.h"
 #include "insole/track/fusion_radio.h"
-<<<<<<< HEAD
+#include "insole/track/fusion_strides.h"
 #include "insole/track/phone_compass.h"
 #include "insole/track/phone_config.h"
 #include "insole/track/phone_place.h"
@@ -104,8 +104,5 @@
 #include "insole/track/phone_tracker.h"
 #include "insole/track/phone_walk.h"
 #include "insole/track/phone_way.h"
-=======
-#include "insole/track/fusion_strides.h"
->>>>>>> gap
 
 #endif

@@ -21,38 +21,6 @@ static const insole_fusion_unknown_t STRAY = {INSOLE_R(25.0), INSOLE_R(0.1)};
 /* A heading told so vaguely is compared with the first stride alone. */
 #define VAGUE_RAD INSOLE_R(0.3)
 
-<<<<<<< HEAD
-static insole_cloud_t cloud_in(const insole_fusion_memory_t *m)
-{
-    insole_cloud_t cloud = {m->particles, m->count, m->past, m->past ? m->past_strides : 0u, 0};
-    return cloud;
-}
-
-static insole_status_t check(const insole_foot_fusion_config_t *config,
-                             const insole_fusion_memory_t *memory)
-{
-    if (!(true INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_IN_RANGE))) {
-        return INSOLE_ERR_VALUE;
-    }
-    if (config->lag_s > ZERO && (!memory->past || !memory->late || memory->late_count == 0u)) {
-        return INSOLE_ERR_NULL;
-    }
-    insole_cloud_t cloud = cloud_in(memory);
-    const insole_status_t parts[] = {insole_foot_config_check(&config->foot),
-                                     insole_particle_config_check(&config->particles),
-                                     insole_particle_config_check(&config->two_order),
-                                     insole_rss_fix_check(&config->rss_fix),
-                                     insole_range_fix_check(&config->range_fix),
-                                     insole_cloud_check(&cloud)};
-    insole_status_t status = INSOLE_OK;
-    for (uint32_t i = 0u; i < sizeof parts / sizeof parts[0]; i++) {
-        status = status == INSOLE_OK ? parts[i] : status;
-    }
-    return status;
-}
-
-=======
->>>>>>> gap
 insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion,
                                         const insole_foot_fusion_config_t *config,
                                         const insole_fusion_memory_t *memory,
