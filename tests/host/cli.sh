@@ -643,8 +643,9 @@ if grep -q '^  simulate ' out; then
     has err '(as it is)'
 
     refuses 2 'insole reproduce: expected the name of one paper' reproduce
-    refuses 2 'insole reproduce: expected the name of one paper' reproduce TwoOrder TwoOrder
-    refuses 2 'insole reproduce: unknown paper Twoorder: expected TwoOrder' reproduce Twoorder
+    refuses 2 'insole reproduce: expected the name of one paper' reproduce TwoOrder PhoneEKF
+    refuses 2 'insole reproduce: unknown paper Twoorder: expected TwoOrder, PhoneEKF' \
+        reproduce Twoorder
     refuses 2 'insole reproduce: --runs 0: expected a whole number from 1 to 1000' \
         reproduce TwoOrder --runs 0
     run reproduce TwoOrder --maps absent --runs 1
@@ -662,6 +663,10 @@ if grep -q '^  simulate ' out; then
     status_is 0; empty err
     has out '"label": "two-order"'
     has out '"share_lower": '
+    run reproduce PhoneEKF --maps "$tree/maps" --runs 1 --seed 5 --json
+    status_is 0; empty err
+    has out '"label": "proposed EKF"'
+    has out '"std_m": '
 fi
 
 [ "$failures" -eq 0 ] && echo 'cli: fine'

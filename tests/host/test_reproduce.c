@@ -53,19 +53,20 @@ START_TEST(what_is_printed_is_the_papers)
 {
     static const struct {
         const char *label;
-        double max_m, min_m, mean_m, rms_m;
-    } table[] = {{"INS+EKF", 7.21, 0.02, 2.86, 3.88},
-                 {"PDR-only", 11.59, 0.02, 3.04, 5.73},
-                 {"two-order", 4.83, 0.01, 1.85, 2.19}};
+        double printed_m[4];
+    } table[] = {{"INS+EKF", {7.21, 0.02, 2.86, 3.88}},
+                 {"PDR-only", {11.59, 0.02, 3.04, 5.73}},
+                 {"two-order", {4.83, 0.01, 1.85, 2.19}}};
     for (int i = 0; i < 3; i++) {
         const reproduce_row_t *row = &reproduce_two_order.rows[row_of(table[i].label)];
         ck_assert(!row->is_ours);
-        ASSERT_NEAR(row->printed.max_m, table[i].max_m, 0.0, "m");
-        ASSERT_NEAR(row->printed.min_m, table[i].min_m, 0.0, "m");
-        ASSERT_NEAR(row->printed.mean_m, table[i].mean_m, 0.0, "m");
-        ASSERT_NEAR(row->printed.rms_m, table[i].rms_m, 0.0, "m");
+        for (int k = 0; k < 4; k++) {
+            reproduce_figure_t column = reproduce_two_order.columns[k];
+            ASSERT_NEAR(row->printed.m[column], table[i].printed_m[k], 0.0, "m");
+        }
     }
-    ck_assert(isnan(reproduce_two_order.rows[row_of("Wi-Fi only")].printed.mean_m));
+    ck_assert_int_eq(reproduce_two_order.column_count, 4);
+    ck_assert(isnan(reproduce_two_order.rows[row_of("Wi-Fi only")].printed.m[REPRODUCE_MEAN]));
 }
 END_TEST
 
@@ -76,7 +77,7 @@ START_TEST(claims_name_rows_that_are_there)
         ck_assert(claim->row >= 0 && claim->row < reproduce_two_order.row_count);
         ck_assert(claim->rival >= 0 && claim->rival < reproduce_two_order.row_count);
         ck_assert(!claim->is_against_print ||
-                  !isnan(reproduce_two_order.rows[claim->rival].printed.mean_m));
+                  !isnan(reproduce_two_order.rows[claim->rival].printed.m[claim->figure]));
     }
 }
 END_TEST
@@ -97,13 +98,18 @@ START_TEST(figures_are_those_of_the_errors)
             high = fmax(high, result->errors_m[i]);
             low = fmin(low, result->errors_m[i]);
         }
-        ASSERT_NEAR(means.mean_m, sum / (double)result->error_count, 0.02 * means.mean_m, "m");
-        ASSERT_NEAR(fmax(result->walks[0].max_m, result->walks[1].max_m), high, 0.0, "m");
-        ASSERT_NEAR(fmin(result->walks[0].min_m, result->walks[1].min_m), low, 0.0, "m");
-        ASSERT_NEAR(means.max_m, 0.5 * (result->walks[0].max_m + result->walks[1].max_m), 1e-9,
-                    "m");
-        ck_assert(means.min_m <= means.mean_m && means.mean_m <= means.rms_m &&
-                  means.rms_m <= means.max_m);
+        const double *of_first = result->walks[0].m, *of_second = result->walks[1].m;
+        ASSERT_NEAR(means.m[REPRODUCE_MEAN], sum / (double)result->error_count,
+                    0.02 * means.m[REPRODUCE_MEAN], "m");
+        ASSERT_NEAR(fmax(of_first[REPRODUCE_MAX], of_second[REPRODUCE_MAX]), high, 0.0, "m");
+        ASSERT_NEAR(fmin(of_first[REPRODUCE_MIN], of_second[REPRODUCE_MIN]), low, 0.0, "m");
+        ASSERT_NEAR(hypot(of_first[REPRODUCE_MEAN], of_first[REPRODUCE_STD]),
+                    of_first[REPRODUCE_RMS], 1e-9, "m");
+        ASSERT_NEAR(means.m[REPRODUCE_MAX],
+                    0.5 * (of_first[REPRODUCE_MAX] + of_second[REPRODUCE_MAX]), 1e-9, "m");
+        ck_assert(means.m[REPRODUCE_MIN] <= means.m[REPRODUCE_MEAN] &&
+                  means.m[REPRODUCE_MEAN] <= means.m[REPRODUCE_RMS] &&
+                  means.m[REPRODUCE_RMS] <= means.m[REPRODUCE_MAX]);
         ck_assert_uint_eq(result->error_count, reproduction.results[0].error_count);
     }
     reproduce_free(&reproduction);
@@ -122,8 +128,9 @@ START_TEST(walks_do_not_depend_on_each_other)
     measure(1, 8u, NULL);
     for (int row = 0; row < reproduce_two_order.row_count; row++) {
         const reproduce_figures_t *alone = &reproduction.results[row].walks[0];
-        ASSERT_NEAR(alone->mean_m, among[row].mean_m, 0.0, "m");
-        ASSERT_NEAR(alone->max_m, among[row].max_m, 0.0, "m");
+        for (int k = 0; k < REPRODUCE_FIGURES; k++) {
+            ASSERT_NEAR(alone->m[k], among[row].m[k], 0.0, "m");
+        }
     }
     reproduce_free(&reproduction);
 }
@@ -183,21 +190,29 @@ END_TEST
 START_TEST(claims_say_lower_and_higher)
 {
     static const reproduce_row_t rows[] = {
-        {"slow", METHOD_INS, false, false, {9.0, 0.0, 6.0, 7.0}},
-        {"quick", METHOD_BEST, true, false, REPRODUCE_NOT_PRINTED}};
-    static const reproduce_claim_t claims[] = {
-        {1, 0, false, "first"}, {1, 0, true, "second"}, {0, 1, false, "third"}};
+        {.label = "slow", .method = METHOD_INS, .printed = {{9.0, 0.0, 6.0, 7.0, 8.0}}},
+        {.label = "quick",
+         .method = METHOD_BEST,
+         .is_ours = true,
+         .printed = REPRODUCE_NOT_PRINTED}};
+    static const reproduce_claim_t claims[] = {{1, 0, REPRODUCE_MEAN, false, "first"},
+                                               {1, 0, REPRODUCE_MEAN, true, "second"},
+                                               {0, 1, REPRODUCE_MEAN, false, "third"},
+                                               {1, 0, REPRODUCE_STD, true, "fourth"}};
+    static const reproduce_figure_t columns[] = {REPRODUCE_MEAN, REPRODUCE_STD, REPRODUCE_MAX};
     static const char *const notes[] = {"a note", NULL};
     static const reproduce_paper_t paper = {.name = "Made",
                                             .table = "table 9",
                                             .scenario = "up",
+                                            .columns = columns,
+                                            .column_count = 3,
                                             .notes = notes,
                                             .rows = rows,
                                             .row_count = 2,
                                             .claims = claims,
-                                            .claim_count = 3};
-    reproduce_figures_t slow[] = {{1.0, 0.0, 1.0, 1.0}, {5.0, 0.0, 3.0, 4.0}};
-    reproduce_figures_t quick[] = {{4.0, 0.0, 2.0, 3.0}, {4.0, 0.0, 4.0, 4.0}};
+                                            .claim_count = 4};
+    reproduce_figures_t slow[] = {{{1.0, 0.0, 1.0, 1.0, 0.5}}, {{5.0, 0.0, 3.0, 4.0, 2.5}}};
+    reproduce_figures_t quick[] = {{{4.0, 0.0, 2.0, 3.0, 2.0}}, {{4.0, 0.0, 4.0, 4.0, 2.0}}};
     reproduction.paper = &paper;
     reproduction.request = request_of(2, 5u, NULL);
     reproduction.results[0].walks = slow;
@@ -209,7 +224,11 @@ START_TEST(claims_say_lower_and_higher)
         strstr(text, "quick against slow as printed: mean 50.0 % lower (second)\n"));
     ck_assert_ptr_nonnull(strstr(text, "slow against quick: mean 33.3 % lower (third)\n"));
     ck_assert_ptr_nonnull(
-        strstr(text, "  3.00   0.00   2.00   2.50   1.00   3.00     9.00   0.00   6.00   7.00\n"));
+        strstr(text, "   2.00   1.50   3.00   1.00   3.00     6.00   8.00   9.00\n"));
+    ck_assert_ptr_nonnull(
+        strstr(text, "quick against slow as printed: std 75.0 % lower (fourth)\n"));
+    ck_assert_ptr_nonnull(
+        strstr(text, "   mean    std    max    low   high     mean    std    max\n"));
     ck_assert_ptr_nonnull(strstr(text, "\na note\n"));
     ck_assert_ptr_nonnull(strstr(printed(reproduce_json), "\"share_lower\": -0.5000"));
 }

@@ -225,7 +225,8 @@ static const option_t options[] = {
      "wifi-kde, wifi-ml: fingerprints alone, by kernels or the likeliest;\n"
      "ekf, ukf: steps and fixes by the filters of [PhoneEKF], [PhoneUKF];\n"
      "kf-const, ekf-const, ukf-const: their rivals with constant covariances;\n"
-     "ml-shift: that of [WifiShift]; pf, pf-kde: particles weighed by strengths, by fixes"},
+     "ml-shift: that of [WifiShift];\n"
+     "pf, pf-kde: particles weighed by strengths, by fixes"},
     REPLAY_OPTIONS,
     {"rate", "HZ", "rows of the track per second (default 10); 0: one per reading"},
     {"smooth", NULL, "ins, pdr: what comes after a moment counts for it too; rows come late"},

@@ -13,7 +13,7 @@
 
 enum { RUNS = 20 };
 
-static const reproduce_paper_t *const papers[] = {&reproduce_two_order, NULL};
+static const reproduce_paper_t *const papers[] = {&reproduce_two_order, &reproduce_phone_ekf, NULL};
 
 static const reproduce_paper_t *find_paper(const char *name, failure_t *failure)
 {
@@ -102,13 +102,13 @@ static const option_t options[] = {
 
 const command_t command_reproduce = {
     "reproduce",
-    "TwoOrder|WifiShift",
+    "TwoOrder|PhoneEKF|WifiShift",
     "a paper's table again: what is measured beside what is printed",
     "Simulates walks with the paper's setup and replays each by the paper's own parts and by\n"
     "our defaults. The table has the errors, and the printed ones beside them.\n"
     "\n"
     "  insole reproduce TwoOrder\n"
-    "  insole reproduce TwoOrder --runs 100 --out figures\n"
+    "  insole reproduce PhoneEKF --runs 100 --out figures\n"
     "  insole reproduce WifiShift --runs 4\n",
     options,
     run};

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "columns.h"
 #include "config_keys.h"
 #include "memory.h"
 #include "platform.h"
@@ -15,6 +16,12 @@
 #include "sim/write.h"
 #include "statistics.h"
 #include "track_reader.h"
+
+/* Surveys have seeds of their own: what their radio hears by chance the walk's does not. */
+static const uint64_t first_survey = UINT64_C(1) << 40;
+
+/* Columns of the footfalls. */
+enum { STEP_KIND, STEP_TIME, STEP_FOOT, STEP_COLUMNS };
 
 /* A place told so vaguely is none: the particles begin where radio says. */
 static const double vague_place_m = 900.0;
@@ -62,50 +69,130 @@ static void drop_walk(reproduction_t *reproduction)
     }
     track_free(&reproduction->truth);
     site_free(&reproduction->site);
+    site_free(&reproduction->bare);
     memset(reproduction->tracks, 0, sizeof reproduction->tracks);
     memset(&reproduction->truth, 0, sizeof reproduction->truth);
     memset(&reproduction->site, 0, sizeof reproduction->site);
+    memset(&reproduction->bare, 0, sizeof reproduction->bare);
 }
 
-static bool read_truth(reproduction_t *reproduction, const char *path, failure_t *failure)
+static bool is_counted(const reproduction_t *reproduction, int64_t t_us)
 {
-    track_t whole = {NULL, 0u, 0u};
-    bool is_good = track_read(&whole, path, failure);
-    for (size_t i = 0u; i < whole.count; i++) {
-        if (1e-6 * (double)whole.rows[i].t_us >= reproduction->paper->begin_s) {
-            track_add(&reproduction->truth, &whole.rows[i]);
+    return 1e-6 * (double)t_us >= reproduction->paper->begin_s;
+}
+
+static void add_place(reproduction_t *reproduction, const track_t *whole, double t_s)
+{
+    track_row_t row;
+    memset(&row, 0, sizeof row);
+    row.t_us = (int64_t)(1e6 * t_s + 0.5);
+    if (is_counted(reproduction, row.t_us) && track_place(whole, row.t_us, &row.x_m, &row.y_m)) {
+        track_add(&reproduction->truth, &row);
+    }
+}
+
+/* Of a walker who turns on the spot no step leads anywhere. */
+static read_t read_step(reproduction_t *reproduction, const track_t *whole, columns_t *steps,
+                        failure_t *failure)
+{
+    double t_s = 0.0;
+    read_t answer = columns_next(steps, failure);
+    const char *kind = answer == READ_ONE ? columns_id(steps, failure) : NULL;
+    if (answer != READ_ONE) {
+        return answer;
+    }
+    if (kind == NULL || !columns_number(steps, STEP_TIME, &t_s, failure)) {
+        return READ_FAILED;
+    }
+    if (strcmp(kind, "shuffle") != 0) {
+        add_place(reproduction, whole, t_s);
+    }
+    return READ_ONE;
+}
+
+static bool take_steps(reproduction_t *reproduction, const track_t *whole, failure_t *failure)
+{
+    static const column_t columns[STEP_COLUMNS] = {[STEP_KIND] = {"kind", 0.0, 0.0},
+                                                   [STEP_TIME] = {"t", 0.0, 1e6},
+                                                   [STEP_FOOT] = {"foot", 0.0, 0.0}};
+    static const columns_layout_t layout = {columns, STEP_COLUMNS, STEP_COLUMNS, STEP_KIND};
+    columns_t steps;
+    read_t answer = READ_FAILED;
+    char *path = platform_join(reproduction->folder, "steps.csv");
+    if (columns_open(&steps, &layout, path, failure)) {
+        do {
+            answer = read_step(reproduction, whole, &steps, failure);
+        } while (answer == READ_ONE);
+        columns_close(&steps);
+    }
+    free(path);
+    return answer == READ_END;
+}
+
+static void take_all(reproduction_t *reproduction, const track_t *whole)
+{
+    for (size_t i = 0u; i < whole->count; i++) {
+        if (is_counted(reproduction, whole->rows[i].t_us)) {
+            track_add(&reproduction->truth, &whole->rows[i]);
         }
     }
+}
+
+static bool read_truth(reproduction_t *reproduction, failure_t *failure)
+{
+    track_t whole = {NULL, 0u, 0u};
+    char *path = platform_join(reproduction->folder, "truth.csv");
+    bool is_good = track_read(&whole, path, failure);
+    if (is_good && reproduction->paper->scored == REPRODUCE_AT_STEPS) {
+        is_good = take_steps(reproduction, &whole, failure);
+    } else if (is_good) {
+        take_all(reproduction, &whole);
+    }
     track_free(&whole);
+    free(path);
     return is_good;
 }
 
 static bool open_walk(reproduction_t *reproduction, failure_t *failure)
 {
+    const insole_propagation_config_t *propagation = &reproduction->our_settings.propagation;
     char *plan = platform_join(reproduction->folder, "plan.csv");
     char *aps = platform_join(reproduction->folder, "aps.csv");
-    char *truth = platform_join(reproduction->folder, "truth.csv");
-    bool is_good = site_open(&reproduction->site, plan, aps, NULL,
-                             &reproduction->our_settings.propagation, failure) &&
-                   read_truth(reproduction, truth, failure);
+    char *map = reproduction->paper->survey != NULL
+                    ? platform_join(reproduction->folder, "radiomap.csv")
+                    : NULL;
+    bool is_good = site_open(&reproduction->site, plan, aps, map, propagation, failure) &&
+                   site_open(&reproduction->bare, NULL, aps, map, propagation, failure) &&
+                   read_truth(reproduction, failure);
     free(plan);
     free(aps);
-    free(truth);
+    free(map);
     return is_good;
 }
 
-static bool simulate(reproduction_t *reproduction, failure_t *failure)
+static bool simulate(const reproduction_t *reproduction, const char *name, uint64_t seed,
+                     failure_t *failure)
 {
     char error[sizeof failure->text];
-    char *scenario = platform_join(reproduction->request.maps, reproduction->paper->scenario);
-    int status = sim_write_scenario(scenario, reproduction->folder, reproduction->seed, NULL, error,
-                                    sizeof error);
+    char *scenario = platform_join(reproduction->request.maps, name);
+    int status =
+        sim_write_scenario(scenario, reproduction->folder, seed, NULL, error, sizeof error);
     free(scenario);
     if (status != 0) {
         failure_input(failure, "%s", error);
         return failure_add(failure, " (--maps DIR tells where the maps are)");
     }
-    return open_walk(reproduction, failure);
+    return true;
+}
+
+/* What the survey leaves is overwritten by the walk, but for the radio map. */
+static bool make_walk(reproduction_t *reproduction, failure_t *failure)
+{
+    const reproduce_paper_t *paper = reproduction->paper;
+    return (paper->survey == NULL ||
+            simulate(reproduction, paper->survey, reproduction->seed + first_survey, failure)) &&
+           simulate(reproduction, paper->scenario, reproduction->seed, failure) &&
+           open_walk(reproduction, failure);
 }
 
 /* ---- a row on it ------------------------------------------------------------------------ */
@@ -122,6 +209,12 @@ static bool find_start(const char *log, record_t *start, failure_t *failure)
     return is_found || (is_open && failure_input(failure, "%s: no start record", log));
 }
 
+/* A phone's methods know how many they want. */
+static uint32_t particles_of(method_t method)
+{
+    return method_tracker(method) == TRACKER_PHONE ? 0u : (uint32_t)REPLAY_PARTICLES;
+}
+
 bool reproduce_replay(const reproduction_t *reproduction, const reproduce_row_t *row,
                       const replay_sink_t *sink, failure_t *failure)
 {
@@ -132,13 +225,16 @@ bool reproduce_replay(const reproduction_t *reproduction, const reproduce_row_t 
                                 .log_count = 1u,
                                 .settings = row->is_ours ? reproduction->our_settings
                                                          : reproduction->paper_settings,
+                                .tracker = method_tracker(row->method),
                                 .method = row->method,
-                                .site = &reproduction->site,
-                                .particles = REPLAY_PARTICLES,
+                                .site = row->lacks_plan ? &reproduction->bare : &reproduction->site,
+                                .particles = particles_of(row->method),
                                 .seed = reproduction->seed,
                                 .rate_hz = 10.0,
                                 .has_start = row->starts_by_radio};
-    bool is_good = !row->starts_by_radio || find_start(log, &request.start, failure);
+    bool is_good =
+        (row->setting == NULL || config_set_pair(&request.settings, row->setting, failure)) &&
+        (!row->starts_by_radio || find_start(log, &request.start, failure));
     if (is_good) {
         request.start.value[3] = vague_place_m;
         is_good = replay_run(&request, sink, &facts, failure);
@@ -157,12 +253,14 @@ static bool keep_row(void *context, const track_row_t *row, failure_t *failure)
 
 static reproduce_figures_t figures_of(const double *errors_m, size_t count)
 {
-    reproduce_figures_t figures = {0.0, count > 0u ? errors_m[0] : 0.0,
-                                   statistics_mean(errors_m, count),
-                                   statistics_rms(errors_m, count)};
+    reproduce_figures_t figures = {.m = {[REPRODUCE_MIN] = count > 0u ? errors_m[0] : 0.0,
+                                         [REPRODUCE_MEAN] = statistics_mean(errors_m, count),
+                                         [REPRODUCE_RMS] = statistics_rms(errors_m, count),
+                                         [REPRODUCE_STD] = statistics_std(errors_m, count)}};
     for (size_t i = 0u; i < count; i++) {
-        figures.max_m = errors_m[i] > figures.max_m ? errors_m[i] : figures.max_m;
-        figures.min_m = errors_m[i] < figures.min_m ? errors_m[i] : figures.min_m;
+        double *max_m = &figures.m[REPRODUCE_MAX], *min_m = &figures.m[REPRODUCE_MIN];
+        *max_m = errors_m[i] > *max_m ? errors_m[i] : *max_m;
+        *min_m = errors_m[i] < *min_m ? errors_m[i] : *min_m;
     }
     return figures;
 }
@@ -197,7 +295,7 @@ static bool measure_walk(reproduction_t *reproduction, int walk, progress_t *pro
     const reproduce_paper_t *paper = reproduction->paper;
     int all = reproduction->request.runs * paper->row_count;
     reproduction->seed = reproduction->request.seed + (uint64_t)walk;
-    bool is_good = simulate(reproduction, failure);
+    bool is_good = make_walk(reproduction, failure);
     for (int row = 0; is_good && row < paper->row_count; row++) {
         is_good = measure_row(reproduction, row, walk, failure);
         progress_step(progress, (unsigned long long)(walk * paper->row_count + row + 1),

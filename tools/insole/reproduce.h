@@ -22,14 +22,26 @@
 
 enum { REPRODUCE_ROWS = 16, REPRODUCE_RUNS_MAX = 1000 };
 
-/** Of the errors of a walk [m]; not-a-number: not known. */
+/** What is told of the errors of a walk; each paper prints some of them. */
+typedef enum {
+    REPRODUCE_MAX,
+    REPRODUCE_MIN,
+    REPRODUCE_MEAN,
+    REPRODUCE_RMS,
+    REPRODUCE_STD, /**< scatter about the mean */
+    REPRODUCE_FIGURES
+} reproduce_figure_t;
+
+/** In the order of reproduce_figure_t; not-a-number: not known. */
 typedef struct {
-    double max_m, min_m, mean_m, rms_m;
+    double m[REPRODUCE_FIGURES];
 } reproduce_figures_t;
 
 #define REPRODUCE_NOT_PRINTED                                                                      \
     {                                                                                              \
-        NUMBER_UNKNOWN, NUMBER_UNKNOWN, NUMBER_UNKNOWN, NUMBER_UNKNOWN                             \
+        {                                                                                          \
+            NUMBER_UNKNOWN, NUMBER_UNKNOWN, NUMBER_UNKNOWN, NUMBER_UNKNOWN, NUMBER_UNKNOWN         \
+        }                                                                                          \
     }
 
 /** A row of the table. */
@@ -38,23 +50,36 @@ typedef struct {
     method_t method;
     bool is_ours;         /**< by the default settings; else by the paper's */
     bool starts_by_radio; /**< for the particles only the heading is told, not the place */
+    bool lacks_plan;      /**< it is not told the walls */
     reproduce_figures_t printed;
+    const char *setting; /**< of this row beside the others, key=value; NULL: none */
 } reproduce_row_t;
 
-/** A row's mean error is so much lower than a rival's. */
+/** A figure of a row is so much lower than a rival's. */
 typedef struct {
-    int row, rival;        /**< numbers of rows */
-    bool is_against_print; /**< the rival's printed mean counts, not that measured */
+    int row, rival; /**< numbers of rows */
+    reproduce_figure_t figure;
+    bool is_against_print; /**< the rival's printed figure counts, not that measured */
     const char *claim;     /**< what is said of it */
 } reproduce_claim_t;
+
+/** Where errors are taken. */
+typedef enum {
+    REPRODUCE_AT_TRUTH, /**< at all rows of the truth */
+    REPRODUCE_AT_STEPS  /**< where the walker is at each footfall, but for turns on the spot */
+} reproduce_scored_t;
 
 typedef struct reproduction reproduction_t;
 
 typedef struct {
-    const char *name;            /**< on the command line */
-    const char *table;           /**< which of the paper's */
-    const char *scenario;        /**< in the folder of maps */
-    double begin_s;              /**< errors count from here on: the first step comes later */
+    const char *name;     /**< on the command line */
+    const char *table;    /**< which of the paper's */
+    const char *scenario; /**< in the folder of maps */
+    const char *survey;   /**< there, of fingerprints; each walk has its own; NULL: none */
+    double begin_s;       /**< errors count from here on: the first step comes later */
+    reproduce_scored_t scored;
+    const reproduce_figure_t *columns; /**< that the paper prints */
+    int column_count;
     const char *const *settings; /**< of the paper's parts, key=value; the last is NULL */
     const char *const *notes;    /**< what to know of the table; the last is NULL */
     const reproduce_row_t *rows; /**< those of the paper's parts first */
@@ -67,6 +92,7 @@ typedef struct {
 } reproduce_paper_t;
 
 extern const reproduce_paper_t reproduce_two_order;
+extern const reproduce_paper_t reproduce_phone_ekf;
 
 /** What is asked for. */
 typedef struct {
@@ -92,7 +118,8 @@ struct reproduction {
 
     uint64_t seed; /**< of the walk */
     site_t site;
-    track_t truth;                  /**< from `begin_s` on */
+    site_t bare;                    /**< the site without its plan */
+    track_t truth;                  /**< where errors are taken, from `begin_s` on */
     track_t tracks[REPRODUCE_ROWS]; /**< of the rows */
 };
 
@@ -107,8 +134,11 @@ bool reproduce_measure(reproduction_t *reproduction, failure_t *failure);
 bool reproduce_replay(const reproduction_t *reproduction, const reproduce_row_t *row,
                       const replay_sink_t *sink, failure_t *failure);
 
-/** Means over the walks. */
+/** Of a row, over the walks. */
 reproduce_figures_t reproduce_means(const reproduction_t *reproduction, int row);
+
+/** `max`, `min`, `mean`, ... */
+const char *reproduce_figure_name(reproduce_figure_t figure);
 
 void reproduce_print(const reproduction_t *reproduction, FILE *file);
 

@@ -6,16 +6,32 @@
 #include "json.h"
 #include "number.h"
 
+static const char *const names[REPRODUCE_FIGURES] = {[REPRODUCE_MAX] = "max",
+                                                     [REPRODUCE_MIN] = "min",
+                                                     [REPRODUCE_MEAN] = "mean",
+                                                     [REPRODUCE_RMS] = "rms",
+                                                     [REPRODUCE_STD] = "std"};
+
+static const char *const keys[REPRODUCE_FIGURES] = {[REPRODUCE_MAX] = "max_m",
+                                                    [REPRODUCE_MIN] = "min_m",
+                                                    [REPRODUCE_MEAN] = "mean_m",
+                                                    [REPRODUCE_RMS] = "rms_m",
+                                                    [REPRODUCE_STD] = "std_m"};
+
+const char *reproduce_figure_name(reproduce_figure_t figure)
+{
+    return names[figure];
+}
+
 reproduce_figures_t reproduce_means(const reproduction_t *reproduction, int row)
 {
     const reproduce_figures_t *walks = reproduction->results[row].walks;
     double share = 1.0 / reproduction->request.runs;
-    reproduce_figures_t means = {0.0, 0.0, 0.0, 0.0};
+    reproduce_figures_t means = {{0.0}};
     for (int i = 0; i < reproduction->request.runs; i++) {
-        means.max_m += share * walks[i].max_m;
-        means.min_m += share * walks[i].min_m;
-        means.mean_m += share * walks[i].mean_m;
-        means.rms_m += share * walks[i].rms_m;
+        for (int k = 0; k < REPRODUCE_FIGURES; k++) {
+            means.m[k] += share * walks[i].m[k];
+        }
     }
     return means;
 }
@@ -24,24 +40,26 @@ reproduce_figures_t reproduce_means(const reproduction_t *reproduction, int row)
 static void find_span(const reproduction_t *reproduction, int row, double *low_m, double *high_m)
 {
     const reproduce_figures_t *walks = reproduction->results[row].walks;
-    *low_m = *high_m = walks[0].mean_m;
+    *low_m = *high_m = walks[0].m[REPRODUCE_MEAN];
     for (int i = 1; i < reproduction->request.runs; i++) {
-        *low_m = fmin(*low_m, walks[i].mean_m);
-        *high_m = fmax(*high_m, walks[i].mean_m);
+        *low_m = fmin(*low_m, walks[i].m[REPRODUCE_MEAN]);
+        *high_m = fmax(*high_m, walks[i].m[REPRODUCE_MEAN]);
     }
 }
 
-/* By how much a row's mean error lies below its rival's; negative: above. */
+/* By how much a row's figure lies below its rival's; negative: above. */
 static double share_below(const reproduction_t *reproduction, const reproduce_claim_t *claim)
 {
-    double own_m = reproduce_means(reproduction, claim->row).mean_m;
-    double rival_m = claim->is_against_print
-                         ? reproduction->paper->rows[claim->rival].printed.mean_m
-                         : reproduce_means(reproduction, claim->rival).mean_m;
-    return 1.0 - own_m / rival_m;
+    reproduce_figures_t own = reproduce_means(reproduction, claim->row);
+    reproduce_figures_t rival = claim->is_against_print
+                                    ? reproduction->paper->rows[claim->rival].printed
+                                    : reproduce_means(reproduction, claim->rival);
+    return 1.0 - own.m[claim->figure] / rival.m[claim->figure];
 }
 
 /* ---- text ------------------------------------------------------------------------------- */
+
+enum { CELL = 7 };
 
 static void print_cell(FILE *file, double value)
 {
@@ -49,27 +67,35 @@ static void print_cell(FILE *file, double value)
     fprintf(file, " %6s", isnan(value) ? "-" : number_fixed(number, value, 2));
 }
 
-static void print_figures(FILE *file, const reproduce_figures_t *figures)
+static void print_figures(FILE *file, const reproduce_paper_t *paper,
+                          const reproduce_figures_t *figures)
 {
-    print_cell(file, figures->max_m);
-    print_cell(file, figures->min_m);
-    print_cell(file, figures->mean_m);
-    print_cell(file, figures->rms_m);
+    for (int i = 0; i < paper->column_count; i++) {
+        print_cell(file, figures->m[paper->columns[i]]);
+    }
+}
+
+static void print_names(FILE *file, const reproduce_paper_t *paper)
+{
+    for (int i = 0; i < paper->column_count; i++) {
+        fprintf(file, " %6s", names[paper->columns[i]]);
+    }
 }
 
 static void print_row(FILE *file, const reproduction_t *reproduction, int row)
 {
-    const reproduce_row_t *asked = &reproduction->paper->rows[row];
+    const reproduce_paper_t *paper = reproduction->paper;
+    const reproduce_row_t *asked = &paper->rows[row];
     reproduce_figures_t means = reproduce_means(reproduction, row);
     double low_m, high_m;
     find_span(reproduction, row, &low_m, &high_m);
     fprintf(file, "%-22s", asked->label);
-    print_figures(file, &means);
+    print_figures(file, paper, &means);
     print_cell(file, low_m);
     print_cell(file, high_m);
-    if (!isnan(asked->printed.mean_m)) {
+    if (!isnan(asked->printed.m[REPRODUCE_MEAN])) {
         fputs("  ", file);
-        print_figures(file, &asked->printed);
+        print_figures(file, paper, &asked->printed);
     }
     fputc('\n', file);
 }
@@ -80,10 +106,10 @@ static void print_claim(FILE *file, const reproduction_t *reproduction,
     const reproduce_paper_t *paper = reproduction->paper;
     char number[NUMBER_ROOM];
     double below = share_below(reproduction, claim);
-    fprintf(file, "%s against %s%s: mean %s %% %s (%s)\n", paper->rows[claim->row].label,
+    fprintf(file, "%s against %s%s: %s %s %% %s (%s)\n", paper->rows[claim->row].label,
             paper->rows[claim->rival].label, claim->is_against_print ? " as printed" : "",
-            number_fixed(number, 100.0 * fabs(below), 1), below < 0.0 ? "higher" : "lower",
-            claim->claim);
+            names[claim->figure], number_fixed(number, 100.0 * fabs(below), 1),
+            below < 0.0 ? "higher" : "lower", claim->claim);
 }
 
 static void print_head(FILE *file, const reproduction_t *reproduction)
@@ -99,9 +125,12 @@ static void print_head(FILE *file, const reproduction_t *reproduction)
     fputs("\nError in m. Measured: each figure is the mean of the walks'; low and high are the\n"
           "least and the largest mean of a walk. Printed: one walk.\n\n",
           file);
-    fprintf(file, "%-22s %41s  %27s\n", "", "measured", "printed");
-    fprintf(file, "%-22s %6s %6s %6s %6s %6s %6s  %6s %6s %6s %6s\n", "method", "max", "min",
-            "mean", "rms", "low", "high", "max", "min", "mean", "rms");
+    fprintf(file, "%-22s%*s  %*s\n%-22s", "", CELL * (paper->column_count + 2), "measured",
+            CELL * paper->column_count, "printed", "method");
+    print_names(file, paper);
+    fprintf(file, " %6s %6s  ", "low", "high");
+    print_names(file, paper);
+    fputc('\n', file);
 }
 
 void reproduce_print(const reproduction_t *reproduction, FILE *file)
@@ -127,29 +156,30 @@ void reproduce_print(const reproduction_t *reproduction, FILE *file)
 
 /* ---- json ------------------------------------------------------------------------------- */
 
-static void json_figures(json_t *json, const char *key, const reproduce_figures_t *figures)
+static void json_figures(json_t *json, const char *key, const reproduce_paper_t *paper,
+                         const reproduce_figures_t *figures)
 {
     json_object(json, key);
-    json_number(json, "max_m", figures->max_m, 4);
-    json_number(json, "min_m", figures->min_m, 4);
-    json_number(json, "mean_m", figures->mean_m, 4);
-    json_number(json, "rms_m", figures->rms_m, 4);
+    for (int i = 0; i < paper->column_count; i++) {
+        json_number(json, keys[paper->columns[i]], figures->m[paper->columns[i]], 4);
+    }
     json_end(json);
 }
 
 static void json_row(json_t *json, const reproduction_t *reproduction, int row)
 {
-    const reproduce_row_t *asked = &reproduction->paper->rows[row];
+    const reproduce_paper_t *paper = reproduction->paper;
+    const reproduce_row_t *asked = &paper->rows[row];
     reproduce_figures_t means = reproduce_means(reproduction, row);
     json_object(json, NULL);
     json_text(json, "label", asked->label);
     json_text(json, "method", method_name(asked->method));
     json_text(json, "settings", asked->is_ours ? "ours" : "paper");
-    json_figures(json, "measured", &means);
-    json_figures(json, "printed", &asked->printed);
+    json_figures(json, "measured", paper, &means);
+    json_figures(json, "printed", paper, &asked->printed);
     json_array(json, "walks");
     for (int i = 0; i < reproduction->request.runs; i++) {
-        json_figures(json, NULL, &reproduction->results[row].walks[i]);
+        json_figures(json, NULL, paper, &reproduction->results[row].walks[i]);
     }
     json_end(json);
     json_end(json);
@@ -162,6 +192,7 @@ static void json_claim(json_t *json, const reproduction_t *reproduction,
     json_object(json, NULL);
     json_text(json, "row", paper->rows[claim->row].label);
     json_text(json, "rival", paper->rows[claim->rival].label);
+    json_text(json, "figure", names[claim->figure]);
     json_flag(json, "rival_as_printed", claim->is_against_print);
     json_number(json, "share_lower", share_below(reproduction, claim), 4);
     json_text(json, "claim", claim->claim);
