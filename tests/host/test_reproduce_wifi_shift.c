@@ -46,8 +46,8 @@ static const char *small_maps(void)
     static char maps[512];
     static const char *const walks[] = {"start,3,18.8,0\nwalk,23,18.8,1.2\n",
                                         "start,30,18.8,3.1416\nwalk,9,18.8,1.2\n",
-                                        "start,3.5,8.8,1.5708\nwalk,3.5,18.8,1.2\n"
-                                        "walk,12,18.8,1.2\n"};
+                                        ("start,3.5,8.8,1.5708\nwalk,3.5,18.8,1.2\n"
+                                         "walk,12,18.8,1.2\n")};
     snprintf(maps, sizeof maps, "%s", scratch("maps"));
     ck_assert(platform_make_folder(maps));
     ck_assert(platform_make_folder(scratch("maps/exhibition_hall")));

@@ -37,7 +37,7 @@ typedef struct {
 /* clang-format off */
 /** What the methods of a phone are made of. */
 #define PHONE_PARTS_KEYS(KEY)                                                                     \
-    KEY(CHOICE, fix, 0, 0, 2, "own|kde|ml",                                                 \
+    KEY(CHOICE, fix, 0, 0, 2, "own|kde|ml",                                                       \
         "what makes fixes of scans: the method's own, or another")
 /* clang-format on */
 
