@@ -644,7 +644,7 @@ if grep -q '^  simulate ' out; then
 
     refuses 2 'insole reproduce: expected the name of one paper' reproduce
     refuses 2 'insole reproduce: expected the name of one paper' reproduce TwoOrder PhoneEKF
-    refuses 2 'insole reproduce: unknown paper Twoorder: expected TwoOrder, PhoneEKF' \
+    refuses 2 'insole reproduce: unknown paper Twoorder: expected TwoOrder, PhoneEKF, WifiShift' \
         reproduce Twoorder
     refuses 2 'insole reproduce: --runs 0: expected a whole number from 1 to 1000' \
         reproduce TwoOrder --runs 0

@@ -74,7 +74,7 @@ insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,
 static inline insole_cloud_t insole_fusion_cloud(const insole_fusion_memory_t *memory)
 {
     insole_cloud_t cloud = {memory->particles, memory->count, memory->past,
-                            memory->past ? memory->past_strides : 0u};
+                            memory->past ? memory->past_strides : 0u, 0};
     return cloud;
 }
 
