@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/particle_filter.h"
 
-#include <stddef.h>
+#include <string.h>
 
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
@@ -27,7 +27,8 @@ insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
     if (!filter || status != INSOLE_OK) {
         return filter ? status : INSOLE_ERR_NULL;
     }
-    *filter = (insole_particle_filter_t){.config = *config};
+    memset(filter, 0, sizeof *filter);
+    filter->config = *config;
     filter->weighing.walls =
         config->walls == INSOLE_WALLS_SOFT ? INSOLE_WALLS_OFF : (insole_walls_t)config->walls;
     insole_rng_seed(&filter->rng, seed);

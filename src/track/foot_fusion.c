@@ -2,57 +2,24 @@
 #include "insole/track/foot_fusion.h"
 
 #include "insole/base/fastmath.h"
+#include "insole/track/fusion_fix.h"
 
 #define ZERO INSOLE_R(0.0)
 #define HALF INSOLE_R(0.5)
-
 /* Radio that no stride has fetched for so long is worked in without one. */
 static const uint64_t PATIENCE_US = 2000000u;
 
-const insole_foot_fusion_config_t insole_foot_fusion_defaults = {
-    INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_DEFAULT){
-        INSOLE_FOOT_TRACKER_KEYS(INSOLE_CONFIG_DEFAULT){INSOLE_SCREEN_KEYS(INSOLE_CONFIG_DEFAULT)},
-        {INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_DEFAULT)},
-        {INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_DEFAULT)},
-        {INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_DEFAULT)},
-        {INSOLE_STRIDE_KEYS(INSOLE_CONFIG_DEFAULT)}},
-    {INSOLE_PARTICLE_FILTER_KEYS(INSOLE_CONFIG_DEFAULT){
-        INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_DEFAULT)}},
-    INSOLE_PARTICLE_FILTER_TWO_ORDER,
-    {INSOLE_RSS_FIX_KEYS(INSOLE_CONFIG_DEFAULT)},
-    {INSOLE_RANGE_FIX_KEYS(INSOLE_CONFIG_DEFAULT)}};
+enum {
+    STRIDES_BEHIND = 3, /* a cloud that lags more does not know where the walker is */
+    DOUBT_STRIDES = 6   /* for so many a cloud must have been good after a way lost as far as */
+};
+#define DOUBT_M INSOLE_R(5.0)
+
+/* Strides that wait and lead farther than any may are a way lost, about so far. */
+static const insole_fusion_unknown_t STRAY = {INSOLE_R(25.0), INSOLE_R(0.1)};
 
 /* A heading told so vaguely is compared with the first stride alone. */
 #define VAGUE_RAD INSOLE_R(0.3)
-
-static insole_cloud_t cloud_in(const insole_fusion_memory_t *m)
-{
-    insole_cloud_t cloud = {m->particles, m->count, m->past, m->past ? m->past_strides : 0u, 0};
-    return cloud;
-}
-
-static insole_status_t check(const insole_foot_fusion_config_t *config,
-                             const insole_fusion_memory_t *memory)
-{
-    if (!(true INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_IN_RANGE))) {
-        return INSOLE_ERR_VALUE;
-    }
-    if (config->lag_s > ZERO && (!memory->past || !memory->late || memory->late_count == 0u)) {
-        return INSOLE_ERR_NULL;
-    }
-    insole_cloud_t cloud = cloud_in(memory);
-    const insole_status_t parts[] = {insole_foot_config_check(&config->foot),
-                                     insole_particle_config_check(&config->particles),
-                                     insole_particle_config_check(&config->two_order),
-                                     insole_rss_fix_check(&config->rss_fix),
-                                     insole_range_fix_check(&config->range_fix),
-                                     insole_cloud_check(&cloud)};
-    insole_status_t status = INSOLE_OK;
-    for (uint32_t i = 0u; i < sizeof parts / sizeof parts[0]; i++) {
-        status = status == INSOLE_OK ? parts[i] : status;
-    }
-    return status;
-}
 
 insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion,
                                         const insole_foot_fusion_config_t *config,
@@ -62,7 +29,8 @@ insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion,
     if (!fusion || !config || !memory) {
         return INSOLE_ERR_NULL;
     }
-    insole_status_t status = check(config, memory);
+    insole_status_t status = insole_fusion_config_check(config);
+    status = status == INSOLE_OK ? insole_fusion_memory_check(memory, config->lag_s) : status;
     if (status != INSOLE_OK) {
         return status;
     }
@@ -150,26 +118,45 @@ static insole_spot_t foot_n(const insole_foot_fusion_t *f)
     return n_m;
 }
 
-/* A start that is told, and what radio says, each as far as it is certain. */
-static void mix_start_and_radio(const insole_foot_fusion_t *f, insole_fix_t *fix)
+/* The cloud's mean, moved on by what the foot has gone since. */
+static void fix_by_particles(const insole_foot_fusion_t *f, insole_fix_t *fix)
 {
-    insole_turn_t turn = insole_turn(f->foot.anchor.yaw_rad);
-    (void)insole_fusion_radio_mix(&f->radio, foot_n(f), turn, f->foot.anchor.var_m2, fix);
+    (void)insole_fusion_fix_by_cloud(&f->particles.fix, f->strides.done_n_m, foot_n(f),
+                                     f->foot.anchor.yaw_rad, fix);
+}
+
+/* A place known from elsewhere, and what radio says, each as far as it is certain. */
+static void mix_in_radio(const insole_foot_fusion_t *f, insole_real_t yaw_rad, insole_real_t var_m2,
+                         insole_fix_t *fix)
+{
+    (void)insole_fusion_radio_mix(&f->radio, foot_n(f), insole_turn(yaw_rad), var_m2, fix);
 }
 
 static void begin(insole_foot_fusion_t *f, const insole_particle_start_t *start)
 {
-    insole_cloud_t cloud = cloud_in(&f->memory);
+    insole_cloud_t cloud = insole_fusion_cloud(&f->memory);
     if (insole_particle_filter_start(&f->particles, &cloud, start) != INSOLE_OK) {
         return;
     }
     f->working = true;
     f->wants_start = f->wants_start && f->foot.has_start; /* one told ahead is still to come */
-    f->has_stride = false;
-    f->stride_turn_rad = f->stride_model_m = ZERO;
-    f->told_n_m = f->fixed_n_m = foot_n(f);
+    insole_fusion_strides_begin(&f->strides, foot_n(f));
+    insole_evidence_clear(&f->news);
+    insole_fusion_gap_close(&f->gap);
+    f->doubt = 0u;
     f->counts.starts++;
-    (void)insole_foot_late_stride(&f->late, 0u, f->told_n_m);
+    (void)insole_foot_late_stride(&f->late, 0u, f->strides.told_n_m);
+}
+
+static void begin_at(insole_foot_fusion_t *f, insole_fix_t fix, insole_real_t var_m2,
+                     insole_real_t yaw_rad, insole_real_t sigma_rad)
+{
+    fix.var_x_m2 = var_m2;
+    mix_in_radio(f, yaw_rad, var_m2, &fix);
+    insole_particle_start_t start = {fix.position_m.x, fix.position_m.y,
+                                     insole_sqrt(insole_min(var_m2, INSOLE_R(1.5) * fix.var_x_m2)),
+                                     yaw_rad, sigma_rad};
+    begin(f, &start);
 }
 
 /* A told start has been reached and is not yet used. */
@@ -187,14 +174,7 @@ static void begin_as_told(insole_foot_fusion_t *f, const insole_fix_t *foot)
     if (anchor->strides_left > strides_left || foot->state == INSOLE_FIX_ALIGN) {
         return;
     }
-    insole_fix_t fix = *foot;
-    fix.var_x_m2 = anchor->var_m2;
-    mix_start_and_radio(f, &fix);
-    insole_particle_start_t start = {
-        fix.position_m.x, fix.position_m.y,
-        insole_sqrt(insole_min(anchor->var_m2, INSOLE_R(1.5) * fix.var_x_m2)), anchor->yaw_rad,
-        sigma_rad};
-    begin(f, &start);
+    begin_at(f, *foot, anchor->var_m2, anchor->yaw_rad, sigma_rad);
 }
 
 /* Nobody tells: radio does, but not the direction. The paper's inertial position begins there too,
@@ -212,6 +192,29 @@ static void begin_by_radio(insole_foot_fusion_t *f, uint64_t t_us)
     begin(f, &start);
 }
 
+/* The particles go on where the foot seems to have come to, as wide as it has lost its way. */
+static void begin_after_gap(insole_foot_fusion_t *f, const insole_fix_t *foot,
+                            insole_fusion_unknown_t lost)
+{
+    insole_fix_t fix = *foot;
+    fix_by_particles(f, &fix);
+    insole_real_t known_m2 = insole_max(fix.var_x_m2, fix.var_y_m2);
+    begin_at(f, fix, known_m2 + lost.m2, f->particles.fix.offset_rad,
+             insole_sqrt(f->particles.fix.var_offset_rad2 + lost.rad2));
+    f->doubt = lost.m2 > insole_square(DOUBT_M) ? DOUBT_STRIDES : 0u;
+}
+
+/* After a gap radio may say more than the way; it is not waited for long. */
+static void cross_gap(insole_foot_fusion_t *f, const insole_fix_t *foot)
+{
+    insole_fusion_site_t site = site_of(f);
+    bool waits = insole_fusion_radio_has_aps(&site) && !f->radio.has_fix &&
+                 foot->t_us - f->gap.crossed_us < PATIENCE_US;
+    if (f->gap.is_crossed && f->particles.has_fix && !waits) {
+        begin_after_gap(f, foot, insole_fusion_gap_lost(&f->gap));
+    }
+}
+
 static void begin_if_possible(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
     if (is_at_start(f)) {
@@ -219,56 +222,72 @@ static void begin_if_possible(insole_foot_fusion_t *f, const insole_fix_t *foot)
         begin_as_told(f, foot);
     } else if (f->counts.starts == 0u && f->radio.has_fix && f->foot.zupt_ekf.aligned) {
         begin_by_radio(f, foot->t_us);
+    } else {
+        cross_gap(f, foot);
     }
 }
 
-static void tell_stride(insole_foot_fusion_t *f, const insole_fix_t *foot, insole_evidence_t *news)
+static void tell_stride(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
     insole_spot_t end = {f->foot.strides.origin_m.x, f->foot.strides.origin_m.y};
-    insole_real_t dx = end.x_m - f->told_n_m.x_m, dy = end.y_m - f->told_n_m.y_m;
     bool printed = f->config.method == INSOLE_FUSION_TWO_ORDER;
-    insole_real_t length_m = printed ? f->stride_model_m : insole_sqrt(dx * dx + dy * dy);
-    f->told_n_m = end;
-    (void)insole_evidence_stride(news, length_m, insole_atan2(dy, dx), f->stride_turn_rad);
-    if (printed) {
-        insole_spot_t inertial = {foot->position_m.x, foot->position_m.y};
-        (void)insole_evidence_position(news, inertial, f->config.sigma_inertial_m);
+    if (f->strides.waiting == 0u) {
+        return;
     }
-    f->has_stride = false;
-    f->stride_turn_rad = f->stride_model_m = ZERO;
+    if (insole_fusion_strides_tell(&f->strides, end, printed, &f->news) != INSOLE_OK) {
+        begin_after_gap(f, foot, STRAY);
+    } else if (printed) {
+        insole_spot_t inertial = {foot->position_m.x, foot->position_m.y};
+        (void)insole_evidence_position(&f->news, inertial, f->config.sigma_inertial_m);
+    }
 }
 
-/* Strides that end while the particles are busy are told as one. */
 static void gather_stride(insole_foot_fusion_t *f)
 {
     insole_stride_t stride;
     if (insole_foot_tracker_stride(&f->foot, &stride) == INSOLE_OK && f->counts.starts > 0u) {
-        f->stride_turn_rad = insole_wrap_pi(f->stride_turn_rad + stride.turn_rad);
-        f->stride_model_m += stride.model_length_m;
-        f->has_stride = true;
+        (void)insole_fusion_strides_gather(&f->strides, &stride);
     }
 }
 
 /* Strides are told when they end, and radio with them, unless none ends. */
 static bool has_news(const insole_foot_fusion_t *f, uint64_t t_us)
 {
-    return f->has_stride ||
+    return f->strides.waiting > 0u ||
            insole_fusion_radio_waits(&f->radio, t_us > PATIENCE_US ? t_us - PATIENCE_US : 0u);
 }
 
 static void tell(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
-    if (f->working || f->counts.starts == 0u || !has_news(f, foot->t_us)) {
+    if (f->working || f->counts.starts == 0u || f->gap.is_open || !has_news(f, foot->t_us)) {
         return;
     }
     insole_fusion_site_t site = site_of(f);
     insole_evidence_clear(&f->news);
-    if (f->has_stride) {
-        tell_stride(f, foot, &f->news);
+    tell_stride(f, foot);
+    if (f->working) {
+        return; /* drawn anew */
     }
-    (void)insole_fusion_radio_tell(&f->radio, &site, f->told_n_m, &f->news);
+    (void)insole_fusion_radio_tell(&f->radio, &site, f->strides.told_n_m, &f->news);
     f->working = insole_particle_filter_begin(&f->particles, f->building, &f->news) == INSOLE_OK;
-    (void)insole_foot_late_stride(&f->late, f->particles.since_start, f->told_n_m);
+    (void)insole_foot_late_stride(&f->late, f->particles.since_start, f->strides.told_n_m);
+}
+
+/* A cloud is believed when it is narrow, has not just died out and fits. */
+static bool is_good(const insole_foot_fusion_t *f, insole_real_t var_m2)
+{
+    return var_m2 <= insole_square(f->config.search_sigma_m) && f->particles.deaths == 0u &&
+           insole_particle_filter_misfit(&f->particles) <= f->config.search_margin;
+}
+
+/* Whoever has lost the way is believed after some strides through which the cloud was good. */
+static void end_work(insole_foot_fusion_t *f)
+{
+    const insole_cloud_fix_t *cloud = &f->particles.fix;
+    insole_fusion_strides_done(&f->strides);
+    if (f->doubt > 0u && f->news.has_stride) {
+        f->doubt = is_good(f, cloud->var_x_m2 + cloud->var_y_m2) ? f->doubt - 1u : DOUBT_STRIDES;
+    }
 }
 
 bool insole_foot_fusion_work(insole_foot_fusion_t *fusion, uint32_t particles)
@@ -276,31 +295,13 @@ bool insole_foot_fusion_work(insole_foot_fusion_t *fusion, uint32_t particles)
     if (!fusion || !fusion->working) {
         return false;
     }
-    insole_cloud_t cloud = cloud_in(&fusion->memory);
+    insole_cloud_t cloud = insole_fusion_cloud(&fusion->memory);
     fusion->working =
         insole_particle_filter_work(&fusion->particles, &cloud, fusion->building, particles);
     if (!fusion->working) {
-        fusion->fixed_n_m = fusion->told_n_m;
+        end_work(fusion);
     }
     return fusion->working;
-}
-
-/* The cloud's mean, moved on by what the foot has gone since. */
-static void fix_by_particles(const insole_foot_fusion_t *f, insole_fix_t *fix)
-{
-    const insole_cloud_fix_t *cloud = &f->particles.fix;
-    insole_spot_t now = foot_n(f);
-    insole_spot_t gone = {cloud->scale * (now.x_m - f->fixed_n_m.x_m),
-                          cloud->scale * (now.y_m - f->fixed_n_m.y_m)};
-    gone = insole_turn_way(insole_turn(cloud->offset_rad), gone);
-    fix->position_m.x = cloud->x_m + gone.x_m;
-    fix->position_m.y = cloud->y_m + gone.y_m;
-    fix->var_x_m2 = cloud->var_x_m2;
-    fix->cov_xy_m2 = cloud->cov_xy_m2;
-    fix->var_y_m2 = cloud->var_y_m2;
-    fix->heading_rad =
-        insole_wrap_pi(fix->heading_rad - f->foot.anchor.yaw_rad + cloud->offset_rad);
-    fix->var_heading_rad2 = cloud->var_offset_rad2;
 }
 
 /* A told start that has been reached but not walked from yet is better than the cloud before it. */
@@ -309,26 +310,39 @@ static bool has_cloud(const insole_foot_fusion_t *f)
     return f->particles.has_fix && !is_at_start(f);
 }
 
-/* Told nothing, not certain, or with a cloud that just died out or misfits: it still searches. */
+/* Told nothing, not certain, or with a cloud that is doubted: it still searches. */
 static bool is_sure(const insole_foot_fusion_t *f, const insole_fix_t *fix)
 {
-    bool is_narrow = fix->var_x_m2 + fix->var_y_m2 <= insole_square(f->config.search_sigma_m);
-    bool is_doubtful = f->particles.deaths > 0u ||
-                       insole_particle_filter_misfit(&f->particles) > f->config.search_margin;
-    return is_narrow && (f->counts.starts > 0u || f->is_told) && !(is_doubtful && has_cloud(f));
+    insole_real_t var_m2 = fix->var_x_m2 + fix->var_y_m2;
+    return has_cloud(f) ? is_good(f, var_m2) && f->doubt == 0u
+                        : var_m2 <= insole_square(f->config.search_sigma_m) &&
+                              (f->counts.starts > 0u || f->is_told);
 }
 
 static void make_fix(const insole_foot_fusion_t *f, insole_fix_t *fix)
 {
     if (is_at_start(f) && f->radio.has_fix) {
-        mix_start_and_radio(f, fix);
+        mix_in_radio(f, f->foot.anchor.yaw_rad, f->foot.anchor.var_m2, fix);
     } else if (has_cloud(f)) {
         fix_by_particles(f, fix);
+        insole_fusion_gap_widen(&f->gap, fix);
     } else if (!f->is_told && f->radio.has_fix) {
         (void)insole_fusion_radio_fix(&f->radio, fix);
     }
-    if (fix->state == INSOLE_FIX_TRACK || (fix->state == INSOLE_FIX_LOST && has_cloud(f))) {
-        fix->state = is_sure(f, fix) ? INSOLE_FIX_TRACK : INSOLE_FIX_SEARCH;
+    if (fix->state == INSOLE_FIX_TRACK ||
+        (fix->state == INSOLE_FIX_LOST && has_cloud(f) && !f->gap.is_open)) {
+        bool lags = f->gap.is_open || insole_fusion_strides_behind(&f->strides) > STRIDES_BEHIND;
+        insole_fix_state_t sure = lags ? INSOLE_FIX_COAST : INSOLE_FIX_TRACK;
+        fix->state = is_sure(f, fix) ? sure : INSOLE_FIX_SEARCH;
+    }
+}
+
+/* What was heard before the foot stood again lies a way back that nobody knows. */
+static void follow_gap(insole_foot_fusion_t *f, const insole_fix_t *foot)
+{
+    if (insole_fusion_gap_follow(&f->gap, &f->foot, foot) &&
+        (!f->gap.is_crossed || f->gap.crossed_us == foot->t_us)) {
+        insole_fusion_radio_forget(&f->radio);
     }
 }
 
@@ -340,6 +354,7 @@ static insole_status_t step(insole_foot_fusion_t *f, insole_fix_t *fix)
         gather_stride(f);
         insole_fusion_site_t site = site_of(f);
         (void)insole_fusion_radio_place(&f->radio, &site, fix->t_us, foot_n(f));
+        follow_gap(f, fix);
         begin_if_possible(f, fix);
         tell(f, fix);
         make_fix(f, fix);
@@ -349,7 +364,7 @@ static insole_status_t step(insole_foot_fusion_t *f, insole_fix_t *fix)
 
 static insole_status_t take_late(insole_foot_fusion_t *f, insole_fix_t *fix)
 {
-    insole_cloud_t cloud = cloud_in(&f->memory);
+    insole_cloud_t cloud = insole_fusion_cloud(&f->memory);
     return insole_foot_late_take(&f->late, &f->particles, &cloud, f->counts.starts, fix);
 }
 
@@ -373,28 +388,13 @@ static insole_status_t next_late(insole_foot_fusion_t *f, insole_fix_t *fix)
     return take_late(f, fix);
 }
 
-static insole_status_t next_radio(insole_foot_fusion_t *f, insole_fix_t *fix)
-{
-    if (!f->radio.is_new) {
-        return INSOLE_ERR_STATE;
-    }
-    static const insole_fix_t blank;
-    *fix = blank;
-    fix->state = INSOLE_FIX_TRACK;
-    fix->var_heading_rad2 = insole_square(INSOLE_PI);
-    fix->t_us = f->radio.fix_us;
-    (void)insole_fusion_radio_fix(&f->radio, fix);
-    f->radio.is_new = false;
-    return INSOLE_OK;
-}
-
 insole_status_t insole_foot_fusion_next(insole_foot_fusion_t *fusion, insole_fix_t *fix)
 {
     if (!fusion || !fix) {
         return INSOLE_ERR_NULL;
     }
     if (fusion->config.method == INSOLE_FUSION_WIFI) {
-        return next_radio(fusion, fix);
+        return insole_fusion_radio_take(&fusion->radio, fix);
     }
     return fusion->config.lag_s > ZERO ? next_late(fusion, fix) : step(fusion, fix);
 }

@@ -288,6 +288,16 @@ insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radio,
     return INSOLE_OK;
 }
 
+void insole_fusion_radio_forget(insole_fusion_radio_t *radio)
+{
+    if (radio) {
+        radio->counts.unused += (radio->scan.waits ? 1u : 0u) + radio->ranges.placed;
+        radio->scan.waits = false;
+        radio->has_fix = false;
+        drop_ranges(&radio->ranges, radio->ranges.placed);
+    }
+}
+
 /* ---- radio alone ------------------------------------------------------------------------ */
 
 insole_status_t insole_fusion_radio_fix(const insole_fusion_radio_t *radio, insole_fix_t *fix)
@@ -303,6 +313,24 @@ insole_status_t insole_fusion_radio_fix(const insole_fusion_radio_t *radio, inso
     fix->var_x_m2 = radio->fix.P.xx;
     fix->cov_xy_m2 = radio->fix.P.xy;
     fix->var_y_m2 = radio->fix.P.yy;
+    return INSOLE_OK;
+}
+
+insole_status_t insole_fusion_radio_take(insole_fusion_radio_t *radio, insole_fix_t *fix)
+{
+    if (!radio || !fix) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!radio->is_new) {
+        return INSOLE_ERR_STATE;
+    }
+    static const insole_fix_t blank;
+    *fix = blank;
+    fix->state = INSOLE_FIX_TRACK;
+    fix->var_heading_rad2 = insole_square(INSOLE_PI);
+    fix->t_us = radio->fix_us;
+    (void)insole_fusion_radio_fix(radio, fix);
+    radio->is_new = false;
     return INSOLE_OK;
 }
 

@@ -112,7 +112,8 @@ static void watch_lie(insole_phone_walk_t *w, insole_quat_t q, insole_real_t dt_
         insole_vec3_add(w->up, insole_vec3_scale(insole_vec3_sub(up, w->up), share));
     insole_real_t length = insole_vec3_norm(mean);
     w->up = length > INSOLE_R(0.1) ? insole_vec3_scale(mean, ONE / length) : up;
-    if (insole_vec3_dot(w->up, w->askew.up) < insole_cos(w->config.tipped_rad)) {
+    bool is_first = !(insole_vec3_max_abs(w->askew.up) > ZERO);
+    if (is_first || insole_vec3_dot(w->up, w->askew.up) < insole_cos(w->config.tipped_rad)) {
         forget_askew(w);
     }
 }

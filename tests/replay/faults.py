@@ -218,6 +218,41 @@ def begins_in_motion(bench):
                        "step make the heading and the gyro bias good"])
 
 
+# ---- a gap on a walk inside a plan --------------------------------------------------------
+
+
+def lies(track, truth):
+    """Points of truth where all is said to be well, and is not: over 2 m and 3 sigma off."""
+    rows = {round(row["t"], 1): row for row in track}
+    found = 0
+    for point in truth:
+        row = rows.get(round(point["t"], 1))
+        if row and row["state"] == "track":
+            sigma_m = math.sqrt(max(0.0, 0.5 * (row["var_x"] + row["var_y"])))
+            off_m = math.dist((row["x"], row["y"]), (point["x"], point["y"]))
+            found += off_m > max(2.0, 3.0 * sigma_m)
+    return found
+
+
+def gaps_in_buildings(program, checks, data):
+    """Who walks on while readings are missing is not told to be where the cloud was."""
+    for folder in sorted((data / "buildings").glob("llio_*")):
+        samples = support.read_imu(data / "foot" / f"{folder.name}.csv")
+        truth = support.read_table(folder / "truth.csv")
+        for seconds in (2.0, 8.0, 20.0, 40.0):
+            begin_s = samples[0][0] + 0.3 * (samples[-1][0] - samples[0][0])
+            if begin_s + seconds + 15.0 > truth[-1]["t"]:
+                continue  # too little is left to be found in
+            log = support.write_imu(program.folder / "gap.csv", dropout(samples, 0.3, seconds))
+            track, _ = program.replay(log, folder / "radio.csv", "--plan", folder / "plan.csv",
+                                      "--aps", folder / "aps.csv")
+            what = f"{folder.name}, {seconds:.0f} s lost inside a plan"
+            checks.within(f"{what}: rows that claim to know", lies(track, truth), 0, 0)
+            end = min(track, key=lambda row: abs(row["t"] - truth[-1]["t"]))
+            off_m = math.dist((end["x"], end["y"]), (truth[-1]["x"], truth[-1]["y"]))
+            checks.within(f"{what}: error at the end", off_m, 0.0, 2.0, "m")
+
+
 # ---- logs of nothing ---------------------------------------------------------------------
 
 
@@ -264,6 +299,8 @@ def main():
             rates(bench)
             units(bench)
             begins_in_motion(bench)
+        if (data.parent / "buildings").is_dir():
+            gaps_in_buildings(program, checks, data.parent)
         hopeless(program, checks, data / f"{WALKS[0]}.csv")
         never_still(program, checks)
     return checks.exit_code()

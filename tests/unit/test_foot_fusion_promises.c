@@ -202,7 +202,7 @@ START_TEST(no_turn_is_lost_while_busy)
                 turned[busy] += (double)fusion.news.turn_rad;
             }
         }
-        turned[busy] += (double)fusion.stride_turn_rad;
+        turned[busy] += (double)fusion.strides.turn_rad;
         strides[busy] = told;
     }
     ck_assert_uint_lt(2u * strides[1], strides[0]);

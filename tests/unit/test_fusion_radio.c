@@ -659,6 +659,45 @@ START_TEST(a_copy_goes_on_alike)
 }
 END_TEST
 
+/* What has its place is forgotten, what has not come to it yet is not. */
+START_TEST(what_lies_before_a_gap_is_forgotten)
+{
+    begin(APS);
+    hear(5 * SECOND, 20.0, 15.0);
+    range(5 * SECOND, 20.0, 15.0, 3);
+    place(5 * SECOND, 2.0, 3.0);
+    hear(6 * SECOND, 21.0, 15.0);
+    range(6 * SECOND, 21.0, 15.0, 2);
+    insole_fusion_radio_forget(&radio);
+    insole_fusion_radio_forget(NULL);
+    ck_assert(!radio.has_fix);
+    ck_assert_uint_eq(radio.counts.unused, 4);
+    tell(2.0, 3.0);
+    ck_assert(!news.has_scan && news.ranges == 0);
+    place(6 * SECOND, 3.0, 3.0);
+    tell(3.0, 3.0);
+    ck_assert(news.has_scan && news.ranges == 2 && radio.has_fix);
+}
+END_TEST
+
+START_TEST(a_place_by_radio_is_taken_once)
+{
+    insole_fix_t fix;
+    begin(APS);
+    ASSERT_UNCHANGED(radio, insole_fusion_radio_take(&radio, &fix), INSOLE_ERR_STATE);
+    hear(5 * SECOND, 20.0, 15.0);
+    place(5 * SECOND, 2.0, 3.0);
+    ASSERT_UNCHANGED(radio, insole_fusion_radio_take(&radio, NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_fusion_radio_take(NULL, &fix), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_fusion_radio_take(&radio, &fix), INSOLE_OK);
+    ck_assert(fix.t_us == 5 * SECOND && fix.state == INSOLE_FIX_TRACK);
+    ASSERT_NEAR(fix.position_m.x, radio.fix.x_m, 0.0, "m");
+    ASSERT_NEAR(fix.var_y_m2, radio.fix.P.yy, 0.0, "m2");
+    ASSERT_AT_LEAST(fix.var_heading_rad2, 9.8, "rad2"); /* any */
+    ASSERT_UNCHANGED(radio, insole_fusion_radio_take(&radio, &fix), INSOLE_ERR_STATE);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("fusion_radio");
@@ -685,5 +724,7 @@ Suite *insole_suite(void)
     suite_add(suite, "in vain", no_fix_is_touched_in_vain);
     suite_add_loop(suite, "whatever comes", whatever_comes_it_keeps_its_order, 3);
     suite_add(suite, "copy", a_copy_goes_on_alike);
+    suite_add(suite, "forget", what_lies_before_a_gap_is_forgotten);
+    suite_add(suite, "take", a_place_by_radio_is_taken_once);
     return suite;
 }

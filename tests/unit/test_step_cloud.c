@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "filter_calls.h"
 #include "fingerprints.h"
 #include "plans.h"
 #include "refusal.h"
@@ -549,6 +550,117 @@ START_TEST(settings_and_memory_are_checked)
 }
 END_TEST
 
+/* ---- for a tracker ---- */
+
+static void begin_blank(void)
+{
+    memset(&cloud, 0, sizeof cloud);
+    memset(particles, 0, sizeof *particles * N);
+    memset(bias, 0, sizeof *bias * N);
+    begin(&insole_step_cloud_defaults, N, &drawing.plan);
+}
+
+/* News of all kinds, told by the calls themselves. */
+static void walk_directly(const insole_step_filter_begin_t *at)
+{
+    const insole_step_origin_t origin = {
+        at->t_us, at->spot, at->cov_m2, at->offset_rad, at->var_offset_rad2, at->from_radio};
+    ck_assert_int_eq(insole_step_cloud_start(&cloud, &origin), INSOLE_OK);
+    for (int k = 1; k <= 40; k++) {
+        insole_spot_fix_t fix = fix_of(1.0 + 0.5 * k, 5.0, 5.0 - 0.1 * k, 9.0);
+        step(0.7, 0.01 * k);
+        tell_fix(&fix);
+        ck_assert_int_eq(insole_step_cloud_compass(&cloud, INSOLE_R(1.4), INSOLE_R(0.8)),
+                         INSOLE_OK);
+        (void)insole_step_cloud_work(&cloud, 600u);
+    }
+    work(70u);
+}
+
+/* The same by the table. */
+static void walk_by_table(const insole_step_filter_begin_t *at)
+{
+    const insole_step_filter_calls_t *calls = &insole_step_cloud_calls;
+    ck_assert_int_eq(calls->start(&cloud, at), INSOLE_OK);
+    for (int k = 1; k <= 40; k++) {
+        insole_pace_t pace = {INSOLE_R(0.7), (insole_real_t)(0.01 * k), 0, 0};
+        insole_spot_fix_t fix = fix_of(1.0 + 0.5 * k, 5.0, 5.0 - 0.1 * k, 9.0);
+        ck_assert_int_eq(calls->step(&cloud, 1000000u + 500000u * (uint64_t)k, &pace), INSOLE_OK);
+        ck_assert_int_eq(calls->fix(&cloud, &fix), INSOLE_OK);
+        ck_assert_int_eq(calls->compass(&cloud, INSOLE_R(1.4), INSOLE_R(0.8)), INSOLE_OK);
+        (void)calls->work(&cloud, 600u);
+    }
+    for (int left = 100000; calls->work(&cloud, 70u); left--) {
+        ck_assert_int_gt(left, 0);
+    }
+}
+
+/* Bit for bit what the calls themselves do with the same news. */
+START_TEST(the_table_is_the_calls_it_names)
+{
+    insole_step_filter_begin_t at = filter_begin();
+    insole_step_filter_answer_t named;
+    at.from_radio = _i == 1;
+    draw_corridor(true);
+    at.spot = insole_spot(INSOLE_R(2.0), INSOLE_R(1.5));
+    begin_blank();
+    walk_directly(&at);
+    insole_step_cloud_t direct = cloud;
+    memcpy(particles_after, particles, sizeof particles_after);
+    memcpy(bias_after, bias, sizeof bias_after);
+    insole_step_cloud_answer_t expected = answer();
+    begin_blank();
+    walk_by_table(&at);
+    ck_assert_mem_eq(particles, particles_after, sizeof particles_after);
+    ck_assert_mem_eq(bias, bias_after, sizeof bias_after);
+    ck_assert_uint_eq(cloud.filter.counts.strides, 40u);
+    ck_assert_uint_eq(cloud.filter.counts.resampled, direct.filter.counts.resampled);
+    ck_assert_uint_eq(cloud.refused, direct.refused);
+    ck_assert_uint_eq(cloud.fix_us, direct.fix_us);
+    ck_assert_int_eq(insole_step_cloud_calls.answer(&cloud, &named), INSOLE_OK);
+    ck_assert_mem_eq(&named.spot, &expected.spot, sizeof named.spot);
+    ck_assert_mem_eq(&named.cov_m2, &expected.cov_m2, sizeof named.cov_m2);
+    ck_assert(named.offset_rad == expected.offset_rad && named.scale == expected.scale);
+    ck_assert(named.var_offset_rad2 == expected.var_offset_rad2);
+}
+END_TEST
+
+/* A tracker asks right after the start: the cloud is drawn by work, and no sooner. */
+START_TEST(the_table_answers_when_the_cloud_is_drawn)
+{
+    const insole_step_filter_calls_t *calls = &insole_step_cloud_calls;
+    insole_step_filter_begin_t at = filter_begin();
+    insole_step_filter_answer_t named;
+    const insole_cloud_t memory = {particles, N, NULL, 0, bias};
+    ck_assert_int_eq(insole_step_cloud_init(&cloud, &insole_step_cloud_defaults, &memory, NULL, 7u),
+                     INSOLE_OK);
+    ck_assert(!calls->work(&cloud, N));
+    ck_assert_int_eq(calls->start(&cloud, &at), INSOLE_OK);
+    memset(&named, 0x5a, sizeof named);
+    insole_step_filter_answer_t untouched = named;
+    ck_assert_int_eq(calls->answer(&cloud, &named), INSOLE_ERR_STATE);
+    ck_assert_mem_eq(&named, &untouched, sizeof named);
+    while (calls->work(&cloud, 64u)) {
+    }
+    ck_assert_int_eq(calls->answer(&cloud, &named), INSOLE_OK);
+    ASSERT_NEAR(named.spot.x_m, 5.0, 4.0 * 2.0 / sqrt(N), "m"); /* four sigma of a mean */
+    ASSERT_NEAR(named.spot.y_m, 5.0, 4.0 * sqrt(3.0 / N), "m");
+    ASSERT_NEAR(named.offset_rad, 1.57, 4.0 * 0.2 / sqrt(N), "rad");
+    ASSERT_NEAR(named.cov_m2.xx, 4.0, 4.0 * 4.0 * sqrt(2.0 / N), "m^2");
+}
+END_TEST
+
+START_TEST(the_table_refuses_what_the_calls_refuse)
+{
+    begin(&insole_step_cloud_defaults, N, NULL);
+    check_filter_calls(&insole_step_cloud_calls, &cloud);
+    ck_assert_int_eq(insole_step_cloud_calls.compass(NULL, 0, 1), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_step_cloud_calls.compass(&cloud, 0, 1), INSOLE_ERR_STATE);
+    ck_assert(!insole_step_cloud_calls.work(NULL, 5u));
+    ck_assert_uint_eq(cloud.refused, 4u);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("step_cloud");
@@ -568,5 +680,8 @@ Suite *insole_suite(void)
     suite_add(suite, "bad news", bad_news_change_nothing);
     suite_add(suite, "no state", no_state_no_answer);
     suite_add(suite, "settings", settings_and_memory_are_checked);
+    suite_add_loop(suite, "table", the_table_is_the_calls_it_names, 2);
+    suite_add(suite, "drawn", the_table_answers_when_the_cloud_is_drawn);
+    suite_add(suite, "table refuses", the_table_refuses_what_the_calls_refuse);
     return suite;
 }

@@ -29,58 +29,16 @@
 #ifndef INSOLE_TRACK_FOOT_FUSION_H
 #define INSOLE_TRACK_FOOT_FUSION_H
 
-#include "insole/fuse/particle_filter.h"
 #include "insole/track/foot_late.h"
 #include "insole/track/foot_tracker.h"
+#include "insole/track/fusion_config.h"
+#include "insole/track/fusion_gap.h"
 #include "insole/track/fusion_radio.h"
+#include "insole/track/fusion_strides.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef enum {
-    INSOLE_FUSION_BEST = 0,      /**< whatever is given is used as well as we know how */
-    INSOLE_FUSION_TWO_ORDER = 1, /**< the paper's second stage as printed */
-    INSOLE_FUSION_WIFI = 2       /**< radio alone */
-} insole_foot_fusion_method_t;
-
-/* clang-format off */
-#define INSOLE_FOOT_FUSION_KEYS(KEY)                                                              \
-    KEY(CHOICE, method, 0, 0, 2, "best|two-order|wifi", "what makes the position")                \
-    KEY(REAL, lag_s, 0.0, 0.0, 60.0, "s",                                                         \
-        "each position is told so late, smoothed by what came after; 0 = at once")                \
-    KEY(REAL, sigma_inertial_m, 1.0, 0.01, 100.0, "m",                                            \
-        "two-order: sigma_1 of (34), how far the inertial position is trusted")                   \
-    KEY(REAL, sigma_range_m, 2.0, 0.01, 100.0, "m",                                               \
-        "two-order: sigma_2 of (39), of a range from signal strength")                            \
-    KEY(REAL, unsure_start_m, 0.5, 0.0, 100.0, "m",                                               \
-        "1-sigma added to a start that radio has found")                                          \
-    KEY(REAL, search_sigma_m, 1.0, 0.1, 1000.0, "m",                                              \
-        "a cloud with a larger 1-sigma is still searching")                                       \
-    KEY(REAL, search_margin, 0.05, 0.0, 100.0, "",                                                \
-        "so is one when scans are so much likelier elsewhere, in logarithms")
-/* clang-format on */
-
-typedef struct {
-    INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_MEMBER)
-    insole_foot_tracker_config_t foot;
-    insole_particle_filter_config_t particles;
-    insole_particle_filter_config_t two_order; /**< those of the paper */
-    insole_rss_fix_config_t rss_fix;
-    insole_range_fix_config_t range_fix;
-} insole_foot_fusion_config_t;
-
-extern const insole_foot_fusion_config_t insole_foot_fusion_defaults;
-
-/** What the caller lends. */
-typedef struct {
-    insole_particle_t *particles;
-    uint32_t count;
-    insole_spot_t *past;     /**< count x past_strides, for `lag_s`; NULL: no lag */
-    uint32_t past_strides;   /**< as many as a walker makes in `lag_s`, and two more */
-    insole_late_row_t *late; /**< as many as samples come in `lag_s`; NULL: no lag */
-    uint32_t late_count;
-} insole_fusion_memory_t;
 
 typedef struct {
     uint32_t starts;  /**< times the particles were drawn */
@@ -96,16 +54,14 @@ typedef struct {
     const insole_building_t *building;
 
     insole_fusion_radio_t radio;
+    insole_fusion_gap_t gap;
 
-    insole_evidence_t news;        /**< what the particles are told */
-    bool is_told;                  /**< a start that was told has been reached */
-    bool wants_start;              /**< a start is told, and not yet used */
-    bool working;                  /**< the particles have work left */
-    bool has_stride;               /**< strides wait for the particles */
-    insole_real_t stride_turn_rad; /**< the foot's turn over them */
-    insole_real_t stride_model_m;  /**< their length by (33), which the paper walks */
-    insole_spot_t told_n_m;        /**< n, where the stride told last ended */
-    insole_spot_t fixed_n_m;       /**< n, where the foot was at the particles' last fix */
+    insole_evidence_t news; /**< what the particles are told */
+    bool is_told;           /**< a start that was told has been reached */
+    bool wants_start;       /**< a start is told, and not yet used */
+    uint32_t doubt;         /**< strides that the cloud has yet to be good for after a gap */
+    bool working;           /**< the particles have work left */
+    insole_fusion_strides_t strides;
 
     insole_foot_late_t late;
     bool finished;

@@ -111,6 +111,13 @@ insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radio,
                                          const insole_fusion_site_t *site, insole_spot_t end_n_m,
                                          insole_evidence_t *evidence);
 
+/** What has its place is dropped, and so is the place by radio: the way since is not known. */
+void insole_fusion_radio_forget(insole_fusion_radio_t *radio);
+
+/** The place by radio alone as a fix of its own, once.
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_STATE when there is none that is new */
+insole_status_t insole_fusion_radio_take(insole_fusion_radio_t *radio, insole_fix_t *fix);
+
 /** Place and covariance by radio alone into a fix; the rest of it stays.
  *  @return INSOLE_ERR_NULL, INSOLE_ERR_STATE while there is none */
 insole_status_t insole_fusion_radio_fix(const insole_fusion_radio_t *radio, insole_fix_t *fix);

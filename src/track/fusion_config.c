@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/track/fusion_config.h"
+
+#include <stddef.h>
+
+const insole_foot_fusion_config_t insole_foot_fusion_defaults = {
+    INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_DEFAULT){
+        INSOLE_FOOT_TRACKER_KEYS(INSOLE_CONFIG_DEFAULT){INSOLE_SCREEN_KEYS(INSOLE_CONFIG_DEFAULT)},
+        {INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_DEFAULT)},
+        {INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_DEFAULT)},
+        {INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_DEFAULT)},
+        {INSOLE_STRIDE_KEYS(INSOLE_CONFIG_DEFAULT)}},
+    {INSOLE_PARTICLE_FILTER_KEYS(INSOLE_CONFIG_DEFAULT){
+        INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_DEFAULT)}},
+    INSOLE_PARTICLE_FILTER_TWO_ORDER,
+    {INSOLE_RSS_FIX_KEYS(INSOLE_CONFIG_DEFAULT)},
+    {INSOLE_RANGE_FIX_KEYS(INSOLE_CONFIG_DEFAULT)}};
+
+insole_status_t insole_fusion_config_check(const insole_foot_fusion_config_t *config)
+{
+    if (!config) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!(true INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+        return INSOLE_ERR_VALUE;
+    }
+    const insole_status_t parts[] = {
+        insole_foot_config_check(&config->foot), insole_particle_config_check(&config->particles),
+        insole_particle_config_check(&config->two_order), insole_rss_fix_check(&config->rss_fix),
+        insole_range_fix_check(&config->range_fix)};
+    insole_status_t status = INSOLE_OK;
+    for (uint32_t i = 0u; i < sizeof parts / sizeof parts[0]; i++) {
+        status = status == INSOLE_OK ? parts[i] : status;
+    }
+    return status;
+}
+
+insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,
+                                           insole_real_t lag_s)
+{
+    if (!memory) {
+        return INSOLE_ERR_NULL;
+    }
+    bool is_late = lag_s > INSOLE_R(0.0);
+    if (is_late && (!memory->past || !memory->late || memory->late_count == 0u)) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_cloud_t cloud = insole_fusion_cloud(memory);
+    return insole_cloud_check(&cloud);
+}
