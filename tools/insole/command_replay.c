@@ -226,7 +226,8 @@ static const option_t options[] = {
      "ekf, ukf: steps and fixes by the filters of [PhoneEKF], [PhoneUKF];\n"
      "kf-const, ekf-const, ukf-const: their rivals with constant covariances;\n"
      "ml-shift: that of [WifiShift];\n"
-     "pf, pf-kde: particles weighed by strengths, by fixes"},
+     "pf, pf-kde: particles weighed by strengths, by fixes;\n"
+     "wpf: by the likeliest fingerprint, and walls kill; zee: by walls alone"},
     REPLAY_OPTIONS,
     {"rate", "HZ", "rows of the track per second (default 10); 0: one per reading"},
     {"smooth", NULL, "ins, pdr: what comes after a moment counts for it too; rows come late"},
