@@ -9,6 +9,8 @@
 #ifndef INSOLE_TRACK_FUSION_CONFIG_H
 #define INSOLE_TRACK_FUSION_CONFIG_H
 
+#include <stddef.h>
+
 #include "insole/fuse/particle_filter.h"
 #include "insole/place/range_fix.h"
 #include "insole/place/rss_fix.h"
@@ -74,7 +76,7 @@ insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,
 static inline insole_cloud_t insole_fusion_cloud(const insole_fusion_memory_t *memory)
 {
     insole_cloud_t cloud = {memory->particles, memory->count, memory->past,
-                            memory->past ? memory->past_strides : 0u};
+                            memory->past ? memory->past_strides : 0u, NULL};
     return cloud;
 }
 
