@@ -410,6 +410,33 @@ START_TEST(a_phone_tipped_over_is_learned_anew)
 }
 END_TEST
 
+/* It points nearly back: the first step is taken as it comes, though its end is not certain yet. */
+START_TEST(the_first_step_has_a_direction_however_the_phone_points)
+{
+    set_up_stroll(1);
+    begin_stroll(false);
+    stroll.mounting = mounting(2.8, 0.3);
+    stroll_on(8.0);
+    ck_assert(!walked[0].is_certain);
+    expect_off(0u, step_count, 0.0, 0.2);
+    ASSERT_NEAR(off_rad(0u), 0.0, 0.2, "rad");
+}
+END_TEST
+
+/* Turned in its pocket, flat as it lies: steps that are sure of their end say so at once. */
+START_TEST(a_phone_turned_round_is_learned_anew)
+{
+    set_up_stroll(1);
+    begin_stroll(false);
+    stroll_on(15.0);
+    stroll.mounting = mounting(ASIDE_RAD - 2.6, 0.3);
+    stroll_on(2.0);
+    uint32_t first = step_count;
+    stroll_on(6.0);
+    expect_off(first, step_count, 0.0, 0.2);
+}
+END_TEST
+
 /* ---- by the position ---------------------------------------------------------------------- */
 
 START_TEST(the_position_tells_whether_the_gait_is_asked)
@@ -535,6 +562,8 @@ Suite *insole_suite(void)
     suite_add(suite, "weak gait", too_weak_a_gait_leaves_the_direction_unknown);
     suite_add_loop(suite, "tipped", a_phone_tipped_over_is_learned_anew,
                    (int)(sizeof tips / sizeof tips[0]));
+    suite_add(suite, "first step", the_first_step_has_a_direction_however_the_phone_points);
+    suite_add(suite, "turned round", a_phone_turned_round_is_learned_anew);
     suite_add(suite, "position", the_position_tells_whether_the_gait_is_asked);
     suite_add(suite, "no position yet", until_a_position_is_told_the_setting_holds);
     suite_add_loop(suite, "ahead position", which_position_points_ahead_is_a_setting, 4);
