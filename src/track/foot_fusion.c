@@ -8,7 +8,6 @@
 #define HALF INSOLE_R(0.5)
 /* Radio that no stride has fetched for so long is worked in without one. */
 static const uint64_t PATIENCE_US = 2000000u;
-
 enum {
     STRIDES_BEHIND = 3, /* a cloud that lags more does not know where the walker is */
     DOUBT_STRIDES = 6   /* for so many a cloud must have been good after a way lost as far as */
@@ -331,7 +330,8 @@ static void make_fix(const insole_foot_fusion_t *f, insole_fix_t *fix)
     }
     if (fix->state == INSOLE_FIX_TRACK ||
         (fix->state == INSOLE_FIX_LOST && has_cloud(f) && !f->gap.is_open)) {
-        bool lags = f->gap.is_open || insole_fusion_strides_behind(&f->strides) > STRIDES_BEHIND;
+        uint32_t behind = insole_fusion_strides_behind(&f->strides);
+        bool lags = insole_fusion_gap_lags(&f->gap, behind, STRIDES_BEHIND);
         insole_fix_state_t sure = lags ? INSOLE_FIX_COAST : INSOLE_FIX_TRACK;
         fix->state = is_sure(f, fix) ? sure : INSOLE_FIX_SEARCH;
     }

@@ -53,6 +53,13 @@ void insole_fusion_gap_widen(const insole_fusion_gap_t *gap, insole_fix_t *fix);
 /** The cloud knows: from here on nothing is lost. */
 void insole_fusion_gap_close(insole_fusion_gap_t *gap);
 
+/** Whether the cloud is behind its walker: a gap is open, or more strides wait than may. */
+static inline bool insole_fusion_gap_lags(const insole_fusion_gap_t *gap, uint32_t waiting,
+                                          uint32_t most)
+{
+    return gap->is_open || waiting > most;
+}
+
 #ifdef __cplusplus
 }
 #endif
