@@ -45,7 +45,7 @@ insole_cloud_source_t insole_cloud_source_everywhere(const insole_floor_plan_t *
                                     .sigma_offset_rad = INSOLE_PI,
                                     .scale = ONE,
                                     .sigma_scale = sigma_scale,
-                                    .is_even = true};
+                                    .even = ONE};
     return source;
 }
 
@@ -146,7 +146,7 @@ static void draw_normal(const insole_cloud_source_t *source, insole_particle_t *
 static void draw_place(const insole_cloud_source_t *source, insole_particle_t *particle,
                        insole_rng_t *rng)
 {
-    if (source->is_even) {
+    if (source->even > ZERO) {
         draw_even(source, particle, rng);
     } else {
         draw_normal(source, particle, rng);
@@ -170,7 +170,7 @@ void insole_cloud_source_draw(const insole_cloud_source_t *source, insole_partic
 {
     draw_walk(source, particle, rng);
     particle->log_weight = INSOLE_PARTICLE_DEAD;
-    int attempts = source->is_even ? ATTEMPTS_EVEN : ATTEMPTS;
+    int attempts = source->even > ZERO ? ATTEMPTS_EVEN : ATTEMPTS;
     for (int i = 0; i < attempts && !insole_particle_lives(particle); i++) {
         draw_place(source, particle, rng);
         if (!plan || insole_floor_plan_inside(plan, particle->x_m, particle->y_m)) {

@@ -338,8 +338,8 @@ END_TEST
 
 START_TEST(it_is_put_elsewhere)
 {
-    insole_cloud_source_t source = {1, 2,    3, 4, 5, INSOLE_R(0.6), INSOLE_R(0.7), INSOLE_R(0.8),
-                                    9, false};
+    insole_cloud_source_t source = {1, 2, 3, 4, 5, INSOLE_R(0.6), INSOLE_R(0.7), INSOLE_R(0.8),
+                                    9, 0};
     insole_cloud_source_put(&source, insole_spot(-1, -2), insole_sym2(13, 14, 15));
     ck_assert(source.x_m == -1 && source.y_m == -2);
     ck_assert(source.var_x_m2 == 13 && source.cov_xy_m2 == 14 && source.var_y_m2 == 15);
@@ -388,7 +388,7 @@ START_TEST(everywhere_is_as_wide_as_the_plan)
     ASSERT_NEAR(s.var_y_m2, high_m * high_m / 12.0, 1e-3, "m2");
     ASSERT_AT_LEAST(s.sigma_offset_rad, 3.14, "rad");
     ASSERT_NEAR(s.sigma_scale, 0.1, 1e-7, "");
-    ck_assert(s.is_even);
+    ASSERT_NEAR(s.even, 1.0, 0.0, "");
 }
 END_TEST
 

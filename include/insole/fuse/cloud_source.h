@@ -27,7 +27,8 @@ typedef struct {
     insole_real_t offset_rad;       /**< from directions in n to directions in m */
     insole_real_t sigma_offset_rad; /**< pi or more: any direction */
     insole_real_t scale, sigma_scale;
-    bool is_even; /**< drawn evenly over the rectangle of these variances, which no turn has */
+    insole_real_t even; /**< 1: drawn evenly over the upright rectangle of these variances; 0:
+                           normal; a number, so that there is no padding to differ in */
 } insole_cloud_source_t;
 
 /** The summary of a cloud whose particles are to have such a scatter of scale. */
