@@ -146,8 +146,8 @@ static void through_attitude(const look_t *look, insole_sym3_t P, insole_real_t 
     insole_turn_t ahead = insole_turn(look->rad);
     (void)insole_cholesky(N, A, root);
     insole_unscented_points(&ut, middle, root, points);
-    for (uint32_t i = 0u; i < POINTS; i++) {
-        const insole_real_t *a = points + i * N;
+    const insole_real_t *a = points;
+    for (uint32_t i = 0u; i < POINTS; i++, a += N) {
         values[i] = angle_when_tilted(look, ahead, a[0], a[1]) + a[2];
     }
     insole_unscented_mean(&ut, 1u, values, mean_rad);

@@ -42,6 +42,7 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
     (void)insole_screen_init(&tracker->screen, &config->screen);
     (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
     (void)insole_attitude_init(&tracker->attitude, &config->attitude);
+    (void)insole_magnetic_init(&tracker->magnetic, &config->magnetic);
     return insole_phone_compass_init(&tracker->compass, &config->compass);
 }
 
@@ -260,6 +261,10 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
         return answer(tracker, status);
     }
     tracker->counts.magnetic++;
+    if (tracker->parts.attitude) {
+        (void)insole_magnetic_push(&tracker->magnetic, &tracker->attitude, tracker->parts.attitude,
+                                   mag);
+    }
     insole_phone_compass_t *compass = &tracker->compass;
     bool is_new =
         insole_phone_compass_push(compass, mag->t_us, insole_vec3_norm(mag->field_ut), azimuth_rad);

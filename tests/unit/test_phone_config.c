@@ -133,6 +133,15 @@ START_TEST(every_key_of_the_attitude_has_its_range)
 }
 END_TEST
 
+START_TEST(every_key_of_the_field_has_its_range)
+{
+    config = insole_phone_tracker_defaults;
+    insole_magnetic_config_t *part = &config.magnetic;
+    INSOLE_MAGNETIC_KEYS(TRY)
+    ck_assert_int_ge(keys, 5);
+}
+END_TEST
+
 START_TEST(every_key_of_the_steps_has_its_range)
 {
     config = insole_phone_tracker_defaults;
@@ -252,6 +261,7 @@ Suite *insole_suite(void)
     suite_add(suite, "keys of the screen", every_key_of_the_screen_has_its_range);
     suite_add(suite, "keys of the rest bias", every_key_of_the_rest_bias_has_its_range);
     suite_add(suite, "keys of the attitude", every_key_of_the_attitude_has_its_range);
+    suite_add(suite, "keys of the field", every_key_of_the_field_has_its_range);
     suite_add(suite, "keys of the steps", every_key_of_the_steps_has_its_range);
     suite_add(suite, "keys of the walk", every_key_of_the_walk_has_its_range);
     suite_add(suite, "keys of the lengths", every_key_of_the_lengths_has_its_range);

@@ -235,6 +235,37 @@ START_TEST(the_compass_directs_a_walk_whose_place_was_told)
 }
 END_TEST
 
+/* The gyro creeps by 0.03 rad/s once somebody walks. Told to, the tracker holds the heading by the
+ * field, as far behind as a Kalman filter of these noises is, 20 uT of it level; else it turns with
+ * the gyro. */
+START_TEST(the_field_holds_the_heading_if_it_may)
+{
+    const double creep_radps = 0.03;
+    double off_rad[2];
+    for (int use = 0; use < 2; use++) {
+        walk_legs(&usual_hand, STRAIGHT, 3);
+        for (uint32_t i = 200u; i < sample_count; i++) {
+            samples[i].gyro_radps.z += (insole_real_t)creep_radps;
+        }
+        rig_case_t c = usual_case(&usual_hand);
+        c.config.magnetic.use = use;
+        c.config.compass.use = 0;
+        c.sees = true;
+        run_case(&rig, &c);
+        check_all_sane();
+        off_rad[use] = fabs(remainder((double)fixes[fix_count - 1u].heading_rad -
+                                          (double)fixes[200].heading_rad,
+                                      6.283185307179586));
+        ck_assert_uint_eq(rig.phone.magnetic.corrected > 100u, use == 1);
+    }
+    double crept_s = 1e-6 * (double)(samples[sample_count - 1u].t_us - samples[200].t_us);
+    ck_assert_double_gt(off_rad[0], 0.5 * creep_radps * crept_s);
+    double lag_s = (double)insole_magnetic_defaults.noise_ut_rts / 20.0 /
+                   (double)insole_attitude_defaults.gyro_noise_rad_rts;
+    ck_assert_double_lt(off_rad[1], 1.1 * creep_radps * lag_s);
+}
+END_TEST
+
 START_TEST(fixes_alone_start_a_walk)
 {
     const insole_step_filter_calls_t *filters[] = {&insole_step_ekf_calls, &insole_step_kf_calls,
@@ -463,6 +494,7 @@ Suite *insole_suite(void)
     suite_add(suite, "told start", before_the_walk_a_told_start_is_where_it_is);
     suite_add(suite, "origin", without_start_and_radio_the_walk_begins_at_the_origin);
     suite_add_loop(suite, "compass", the_compass_directs_a_walk_whose_place_was_told, 8);
+    suite_add(suite, "field", the_field_holds_the_heading_if_it_may);
     suite_add_loop(suite, "automatic start", fixes_alone_start_a_walk, 3);
     suite_add(suite, "start that is off", fixes_mend_a_start_that_is_off);
     suite_add(suite, "radio alone", radio_alone_holds_its_last_fix);

@@ -135,7 +135,7 @@ static bool run(const arguments_t *arguments, failure_t *failure)
 
 static const option_t options_of[] = {
     {"out", "FILE", "write the radio map there; - is standard output"},
-    {"spacing", "METRES", "samples in a square of this side are one point (default 2)"},
+    {"spacing", "METRES", "samples in a square of this side are one point (default 2.5)"},
     {"keep", "N", "of each point the N strongest access points; default: all"},
     {"late", "SECONDS",
      "radios listen later than their ages tell: a scan lies at t - age + late,\n"

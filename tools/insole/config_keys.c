@@ -31,6 +31,7 @@
 
 #define PHONE_TRACKER_ROW(kind, name, ...)                                                         \
     ROW(phone_tracker, phone.tracker, kind, name, __VA_ARGS__)
+#define MAGNETIC_ROW(kind, name, ...)   ROW(magnetic, phone.tracker.magnetic, kind, name, __VA_ARGS__)
 #define PHONE_WALK_ROW(kind, name, ...) ROW(phone_walk, phone.tracker.walk, kind, name, __VA_ARGS__)
 #define PHONE_PLACE_ROW(kind, name, ...)                                                           \
     ROW(phone_place, phone.tracker.place, kind, name, __VA_ARGS__)
@@ -86,6 +87,7 @@ static const config_key_t keys[] = {
     INSOLE_PHONE_PLACE_KEYS(PHONE_PLACE_ROW)
     INSOLE_PHONE_COMPASS_KEYS(PHONE_COMPASS_ROW)
     INSOLE_ATTITUDE_KEYS(ATTITUDE_ROW)
+    INSOLE_MAGNETIC_KEYS(MAGNETIC_ROW)
     INSOLE_STEP_KEYS(STEP_ROW)
     INSOLE_STEP_LENGTH_KEYS(STEP_LENGTH_ROW)
     INSOLE_AUTO_START_KEYS(AUTO_START_ROW)

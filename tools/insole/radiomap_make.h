@@ -24,7 +24,7 @@
 /** How far ahead of the walker a scan speaks of a place [m]. */
 #define RADIOMAP_AHEAD_M 0.0
 
-#define RADIOMAP_SPACING_M 2.0
+#define RADIOMAP_SPACING_M 2.5
 
 typedef struct {
     double spacing_m; /**< 0.05 .. 1000: samples in a square of this side are one point */
