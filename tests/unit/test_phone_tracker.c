@@ -253,9 +253,9 @@ START_TEST(the_field_holds_the_heading_if_it_may)
         c.sees = true;
         run_case(&rig, &c);
         check_all_sane();
-        off_rad[use] = fabs(remainder((double)fixes[fix_count - 1u].heading_rad -
-                                          (double)fixes[200].heading_rad,
-                                      6.283185307179586));
+        off_rad[use] = fabs(
+            remainder((double)fixes[fix_count - 1u].heading_rad - (double)fixes[200].heading_rad,
+                      6.283185307179586));
         ck_assert_uint_eq(rig.phone.magnetic.corrected > 100u, use == 1);
     }
     double crept_s = 1e-6 * (double)(samples[sample_count - 1u].t_us - samples[200].t_us);
