@@ -261,7 +261,10 @@ insole_status_t insole_phone_place_answer(const insole_phone_place_t *place, uin
     if (!place || !answer) {
         return INSOLE_ERR_NULL;
     }
-    const insole_phone_answer_t nowhere = {.at = {.scale = ONE}};
+    const insole_phone_answer_t nowhere = {
+        .at = {.cov_m2 = insole_sym2_circle(place->has_radio ? INSOLE_SPOT_MOST_M2 : ZERO),
+               .var_offset_rad2 = place->has_radio ? INSOLE_HEADING_MOST_R2 : ZERO,
+               .scale = ONE}};
     insole_auto_start_answer_t found;
     *answer = nowhere;
     if (is_reached(place, t_us)) {

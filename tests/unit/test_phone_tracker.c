@@ -284,6 +284,7 @@ START_TEST(fixes_alone_start_a_walk)
     }
     ck_assert_uint_gt(first, 500u);
     ck_assert_uint_lt(first, 2500u);
+    ck_assert_double_gt((double)fixes[10].var_x_m2, 1.0e9); /* nobody has heard anything yet */
     ck_assert_uint_eq(rig.phone.place.starts, 1u);
     ck_assert_uint_eq(rig.phone.radio.fixes, scan_count);
     ASSERT_AT_MOST(worst_error(first, fix_count), 4.0, "m");

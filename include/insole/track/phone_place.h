@@ -67,7 +67,8 @@ typedef struct {
 
 /** What is known of the place, and how. */
 typedef enum {
-    INSOLE_PHONE_NOWHERE = 0, /**< nothing: the answer tells no place */
+    INSOLE_PHONE_NOWHERE = 0, /**< nothing: the place told is none, and has a variance that says so
+                                   unless the walk is to begin there */
     INSOLE_PHONE_GUESSED = 1, /**< by fixes alone; the filter waits for a direction */
     INSOLE_PHONE_TOLD = 2,    /**< by a start; the filter waits for the first steps */
     INSOLE_PHONE_FILTERED = 3
