@@ -106,7 +106,7 @@ static void try_feature(const grower_t *grower, const uint32_t *rows, size_t cou
 static bool find_cut(grower_t *grower, const uint32_t *rows, size_t count, double purity,
                      cut_t *best)
 {
-    uint8_t features[INSOLE_CARRY_FEATURES];
+    uint8_t features[INSOLE_CARRY_FEATURES] = {0u};
     uint32_t all = (uint32_t)grower->settings->features;
     uint32_t few = (uint32_t)(sqrt((double)all) + 0.5);
     best->purity = purity * (1.0 + 1.0e-9);
