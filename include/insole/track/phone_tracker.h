@@ -69,7 +69,7 @@ typedef struct {
     insole_still_bias_t still_bias;
     insole_attitude_t attitude;
     insole_magnetic_t magnetic; /**< a second direction for it, if its settings switch it on */
-    insole_phone_walk_t walk; /**< its `way` holds the last steps, n */
+    insole_phone_walk_t walk;   /**< its `way` holds the last steps, n */
     insole_phone_compass_t compass;
     insole_phone_radio_t radio;
     insole_phone_place_t place; /**< unless there is no filter */
