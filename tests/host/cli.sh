@@ -118,6 +118,8 @@ refuses 2 'insole: --method ekf: expected ins, pdr, wifi, two-order or best; wit
     replay walk.csv --method ekf
 refuses 2 'insole replay: --method wifi-kde needs fingerprints: --radiomap FILE' \
     replay walk.csv --tracker phone --method wifi-kde
+refuses 2 'insole replay: --method zee needs walls: --plan FILE' \
+    replay walk.csv --tracker phone --method zee
 refuses 2 'insole replay: --lag is for the foot tracker' replay walk.csv --tracker phone --lag 1
 refuses 2 'insole replay: --smooth is for the foot tracker' \
     replay walk.csv --tracker phone --smooth

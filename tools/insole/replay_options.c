@@ -213,6 +213,11 @@ static bool check_phone(const arguments_t *arguments, const replay_request_t *re
         return failure_usage(failure, "insole %s: --method %s needs fingerprints: --radiomap FILE",
                              arguments->command, method_name(request->method));
     }
+    if (request->method == METHOD_ZEE &&
+        (request->site == NULL || request->site->building.plan == NULL)) {
+        return failure_usage(failure, "insole %s: --method zee needs walls: --plan FILE",
+                             arguments->command);
+    }
     for (size_t i = 0u; i < sizeof foreign / sizeof foreign[0]; i++) {
         if (options_has(arguments, foreign[i])) {
             return failure_usage(failure, "insole %s: --%s is for the foot tracker",

@@ -21,7 +21,7 @@
     {"use", "rss,range", "which radio counts: rss, range or both (default)"},                     \
     {"seed", "N", "of the particles' random numbers (default 1); equal seeds give equal\n"        \
      "tracks"},                                                                                   \
-    {"particles", "N", "how many there are (default 500)"},                                       \
+    {"particles", "N", "how many there are (default 500; pf, pf-kde, wpf 1000, zee 10000)"},      \
     {"lag", "SECONDS", "best, two-order: each position comes so late, smoothed by what came\n"    \
      "after it"},                                                                                 \
     {"config", "FILE", "settings: lines `key = value` (`insole config` prints them all)"},        \
