@@ -6,7 +6,7 @@
 #include "files.h"
 #include "foot_walk.h"
 #include "near.h"
-#include "replay.h"
+#include "replay_result.h"
 #include "suite.h"
 
 /* 20 strides of 1.3 m in a circle of about 10 m about (0, 10). */
@@ -16,48 +16,9 @@ static const foot_walk_t walk = {2.0, 1.3, 0.12, 200.0, 20, 0.0};
 enum { APS = 4, EVENTS = 2000 };
 static const double places_m[APS][2] = {{-14.0, -3.0}, {15.0, 2.0}, {3.0, 24.0}, {-9.0, 17.0}};
 
-typedef struct {
-    track_t rows;
-    unsigned long events[EVENT_KINDS];
-    replay_facts_t facts;
-    failure_t failure;
-} result_t;
-
-static result_t result;
+static replay_result_t result;
 static site_t site;
 static const char *paths[2];
-
-static bool keep_row(void *context, const track_row_t *row, failure_t *failure)
-{
-    (void)failure;
-    track_add(&((result_t *)context)->rows, row);
-    return true;
-}
-
-static bool keep_event(void *context, const event_t *event, failure_t *failure)
-{
-    result_t *to = context;
-    (void)failure;
-    ck_assert_int_le(event->begin_us, event->end_us);
-    ck_assert(event->kind == EVENT_STRIDE || event->length_m == 0.0);
-    to->events[event->kind]++;
-    return true;
-}
-
-static void clear(void)
-{
-    track_free(&result.rows);
-    replay_facts_free(&result.facts);
-    memset(&result, 0, sizeof result);
-}
-
-static track_t take_rows(void)
-{
-    track_t rows = result.rows;
-    memset(&result.rows, 0, sizeof result.rows);
-    clear();
-    return rows;
-}
 
 /* ---- the building ----------------------------------------------------------------------- */
 
@@ -140,13 +101,6 @@ static void open_site(replay_request_t *request, bool has_plan, bool has_aps)
     request->site = &site;
 }
 
-static void run(const replay_request_t *request)
-{
-    const replay_sink_t sink = {&result, NULL, keep_row, keep_event};
-    ck_assert_msg(replay_run(request, &sink, &result.facts, &result.failure), "%s",
-                  result.failure.text);
-}
-
 static double mean_error_m(const track_t *rows, double from_s)
 {
     double sum = 0.0;
@@ -183,16 +137,16 @@ START_TEST(nothing_known_of_a_building_is_the_first_order)
 {
     write_logs(1e9, start_line);
     replay_request_t request = request_of(METHOD_INS);
-    run(&request);
-    track_t ins = take_rows();
+    replay_result_run(&result, &request);
+    track_t ins = replay_result_take_rows(&result);
     request = request_of(METHOD_BEST);
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert(!result.facts.fusion.is_fused);
     ck_assert_uint_eq(result.facts.fusion.ids, APS + 1u);
     ck_assert_uint_eq(result.rows.count, ins.count);
     expect_same_rows(&ins, &result.rows, ins.count);
     track_free(&ins);
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -201,7 +155,7 @@ START_TEST(building_and_radio_are_used)
     write_logs(1e9, start_line);
     replay_request_t request = request_of(METHOD_BEST);
     open_site(&request, true, true);
-    run(&request);
+    replay_result_run(&result, &request);
     const replay_fusion_t *fusion = &result.facts.fusion;
     ck_assert(fusion->is_fused && fusion->walls == 8u && fusion->aps == APS);
     ck_assert_uint_eq(fusion->unknown_ids, 1u);
@@ -220,7 +174,7 @@ START_TEST(building_and_radio_are_used)
     ck_assert_uint_eq(result.events[EVENT_REDRAW], fusion->particles.redrawn);
     ck_assert_uint_eq(result.events[EVENT_RECOVERY], fusion->particles.recovered);
     ASSERT_AT_MOST(mean_error_m(&result.rows, 0.0), 0.5, "m");
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -231,18 +185,18 @@ START_TEST(radio_that_is_not_wanted_is_not_used)
     replay_request_t request = request_of(METHOD_BEST);
     open_site(&request, false, true);
     request.no_rss = true;
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.facts.fusion.waits.scans, 0u);
     ck_assert_uint_gt(result.facts.fusion.waits.ranges, 0u);
     ck_assert_uint_eq(result.events[EVENT_SCAN], 0u);
-    clear();
+    replay_result_clear(&result);
     request.no_rss = false;
     request.no_range = true;
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_gt(result.facts.fusion.waits.scans, 0u);
     ck_assert_uint_eq(result.facts.fusion.waits.ranges, 0u);
     ck_assert_uint_eq(result.events[EVENT_RANGES], 0u);
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -253,16 +207,16 @@ START_TEST(radio_finds_a_start_that_nobody_tells)
     replay_request_t request = request_of(METHOD_BEST);
     open_site(&request, true, true);
     request.no_range = true; /* signal strengths take longer */
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert(result.facts.knows_place);
     ck_assert_int_gt(result.facts.start_us, 0);
     ck_assert_uint_gt(result.facts.states[INSOLE_FIX_SEARCH], 0u);
-    clear();
+    replay_result_clear(&result);
     request.no_range = false;
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_gt(result.facts.states[INSOLE_FIX_TRACK], 0u);
     ASSERT_AT_MOST(mean_error_m(&result.rows, 15.0), 1.0, "m");
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -272,19 +226,19 @@ START_TEST(equal_seeds_give_equal_bits)
     write_logs(1e9, start_line);
     replay_request_t request = request_of(_i == 0 ? METHOD_BEST : METHOD_TWO_ORDER);
     open_site(&request, true, true);
-    run(&request);
-    track_t first = take_rows();
-    run(&request);
+    replay_result_run(&result, &request);
+    track_t first = replay_result_take_rows(&result);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.rows.count, first.count);
     expect_same_rows(&result.rows, &first, first.count);
-    clear();
+    replay_result_clear(&result);
     request.seed = 2u;
-    run(&request);
+    replay_result_run(&result, &request);
     const track_row_t *a = &first.rows[first.count - 1u];
     const track_row_t *b = &result.rows.rows[result.rows.count - 1u];
     ck_assert(a->x_m != b->x_m && a->y_m != b->y_m);
     track_free(&first);
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -294,16 +248,16 @@ START_TEST(a_lag_gives_the_same_rows_later)
     write_logs(1e9, start_line);
     replay_request_t request = request_of(METHOD_BEST);
     open_site(&request, true, true);
-    run(&request);
+    replay_result_run(&result, &request);
     size_t count = result.rows.count;
     unsigned long strides = result.events[EVENT_STRIDE];
-    clear();
+    replay_result_clear(&result);
     request.settings.fusion.lag_s = INSOLE_R(3.0);
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.rows.count, count);
     ck_assert_uint_eq(result.events[EVENT_STRIDE], strides);
     ASSERT_AT_MOST(mean_error_m(&result.rows, 0.0), 0.5, "m");
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -338,7 +292,7 @@ START_TEST(radio_alone_gives_a_row_for_each_scan)
     request.log_count = 1u;
     request.no_rss = _i == 0;
     request.no_range = _i == 1;
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.rows.count, 28u);
     for (size_t i = 0u; i < result.rows.count; i++) {
         ck_assert_int_eq(result.rows.rows[i].t_us, 400000 + 930000 * (int64_t)i);
@@ -350,7 +304,7 @@ START_TEST(radio_alone_gives_a_row_for_each_scan)
         ASSERT_AT_MOST(mean_error_m(&result.rows, 0.0), 1.0, "m");
     }
     ck_assert(result.facts.knows_place);
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -360,14 +314,14 @@ START_TEST(with_an_imu_rows_of_radio_are_due_as_ever)
     write_logs(1e9, start_line);
     replay_request_t request = request_of(METHOD_WIFI);
     open_site(&request, false, true);
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.rows.count, 261u);
     for (size_t i = 0u; i < result.rows.count; i++) {
         const track_row_t *row = &result.rows.rows[i];
         ck_assert_int_eq(row->t_us, 100000 * (int64_t)i);
         ck_assert_int_eq(row->state == INSOLE_FIX_SEARCH, row->t_us <= 400000);
     }
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -379,7 +333,7 @@ START_TEST(radio_that_falls_silent_is_told)
     paths[1] = scratch_file("short.csv", "rss,0.998,A,-50\nrss,0.998,B,-60\n");
     replay_request_t request = request_of(METHOD_WIFI);
     open_site(&request, false, true);
-    run(&request);
+    replay_result_run(&result, &request);
     for (size_t i = 0u; i < result.rows.count; i++) {
         const track_row_t *row = &result.rows.rows[i];
         insole_fix_state_t expected = row->t_us < 1000000                    ? INSOLE_FIX_SEARCH
@@ -387,7 +341,7 @@ START_TEST(radio_that_falls_silent_is_told)
                                                                              : INSOLE_FIX_COAST;
         ck_assert_int_eq(row->state, expected);
     }
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -411,17 +365,17 @@ START_TEST(rows_of_a_cut_session_are_those_of_the_whole)
     open_site(&request, laws[_i].has_plan, laws[_i].has_aps);
     request.rate_hz = laws[_i].rate_hz;
     write_logs(1e9, laws[_i].head);
-    run(&request);
-    track_t rows = take_rows();
+    replay_result_run(&result, &request);
+    track_t rows = replay_result_take_rows(&result);
     for (size_t i = 0u; i < sizeof cuts_s / sizeof cuts_s[0]; i++) {
         write_logs(cuts_s[i], laws[_i].head);
-        run(&request);
+        replay_result_run(&result, &request);
         size_t n = 0u;
         while (n < rows.count && 1e-6 * (double)rows.rows[n].t_us <= cuts_s[i] - 0.5) {
             n++;
         }
         expect_same_rows(&rows, &result.rows, n);
-        clear();
+        replay_result_clear(&result);
     }
     track_free(&rows);
     site_free(&site);
@@ -449,7 +403,7 @@ START_TEST(radio_trouble_does_not_stop_the_track)
         open_site(&request, true, true);
         request.logs = all;
         request.log_count = 3u;
-        run(&request);
+        replay_result_run(&result, &request);
         ck_assert_uint_gt(result.rows.count, 200u);
         ck_assert_uint_gt(result.facts.fusion.radio.worked_in, 2u);
         for (size_t i = 0u; i < result.rows.count; i++) {
@@ -457,7 +411,7 @@ START_TEST(radio_trouble_does_not_stop_the_track)
             ck_assert(isfinite(row->x_m) && isfinite(row->y_m) && isfinite(row->var_x_m2));
             ck_assert_msg(hypot(row->x_m, row->y_m) < 100.0, "(%g, %g) m", row->x_m, row->y_m);
         }
-        clear();
+        replay_result_clear(&result);
         site_free(&site);
     }
 }
@@ -468,14 +422,15 @@ START_TEST(a_start_outside_the_plan_is_noticed)
     write_logs(1e9, "start,0,66,0,0.06\n");
     replay_request_t request = request_of(METHOD_BEST);
     open_site(&request, true, true);
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert(result.facts.fusion.starts_outside);
     ASSERT_NEAR(result.facts.fusion.start_distance_m, 50.0, 0.01, "m");
-    clear();
+    ck_assert_uint_gt(result.facts.fusion.outside, 0u);
+    replay_result_clear(&result);
     write_logs(1e9, "start,0,66000,0,0.06\n");
-    run(&request);
+    replay_result_run(&result, &request);
     ASSERT_NEAR(result.facts.fusion.start_distance_m, REPLAY_FAR_M, 0.0, "m");
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -494,7 +449,7 @@ START_TEST(settings_the_library_does_not_take_are_told)
     }
     ck_assert(!replay_run(&request, &sink, &result.facts, &result.failure));
     ck_assert_str_eq(result.failure.text, "insole: the tracker does not take these settings");
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 

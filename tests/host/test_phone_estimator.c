@@ -9,52 +9,12 @@
 #include "insole/move/attitude_ukf.h"
 #include "near.h"
 #include "phone_logs.h"
-#include "replay.h"
+#include "replay_result.h"
 #include "suite.h"
 
-typedef struct {
-    track_t rows;
-    unsigned long events[EVENT_KINDS];
-    double steps_m;
-    replay_facts_t facts;
-    failure_t failure;
-} result_t;
-
-static result_t result;
+static replay_result_t result;
 static site_t site;
 static const char *paths[2];
-
-static bool keep_row(void *context, const track_row_t *row, failure_t *failure)
-{
-    (void)failure;
-    track_add(&((result_t *)context)->rows, row);
-    return true;
-}
-
-static bool keep_event(void *context, const event_t *event, failure_t *failure)
-{
-    result_t *to = context;
-    (void)failure;
-    ck_assert_int_le(event->begin_us, event->end_us);
-    to->events[event->kind]++;
-    to->steps_m += event->kind == EVENT_STEP ? event->length_m : 0.0;
-    return true;
-}
-
-static void clear(void)
-{
-    track_free(&result.rows);
-    replay_facts_free(&result.facts);
-    memset(&result, 0, sizeof result);
-}
-
-static track_t take_rows(void)
-{
-    track_t rows = result.rows;
-    memset(&result.rows, 0, sizeof result.rows);
-    clear();
-    return rows;
-}
 
 static void write_logs(double until_s, const char *head)
 {
@@ -100,13 +60,6 @@ static void open_site(replay_request_t *request)
     request->site = &site;
 }
 
-static void run(const replay_request_t *request)
-{
-    const replay_sink_t sink = {&result, NULL, keep_row, keep_event};
-    ck_assert_msg(replay_run(request, &sink, &result.facts, &result.failure), "%s",
-                  result.failure.text);
-}
-
 static double worst_error_m(const track_t *rows, double from_s)
 {
     double most = 0.0;
@@ -133,7 +86,7 @@ START_TEST(a_told_start_leads_every_method_to_the_end)
     write_logs(PHONE_LOGS_END_S, start_line);
     replay_request_t request = request_of(walkers[_i]);
     open_site(&request);
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.rows.count, 431u); /* 43 s at 10 Hz */
     ASSERT_AT_MOST(worst_error_m(&result.rows, 10.0), 4.5, "m");
     ASSERT_AT_LEAST(result.facts.strides, 72.0, "steps");
@@ -146,7 +99,7 @@ START_TEST(a_told_start_leads_every_method_to_the_end)
     bool hears = !method_is_steps_alone(walkers[_i]);
     ck_assert_uint_eq(result.events[EVENT_SCAN], hears ? 43u : 0u);
     ck_assert_uint_eq(result.facts.fusion.radio.worked_in, hears ? 43u : 0u);
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -156,14 +109,14 @@ START_TEST(radio_finds_a_start_that_nobody_tells)
     write_logs(PHONE_LOGS_END_S, "");
     replay_request_t request = request_of(_i == 0 ? METHOD_PHONE_BEST : METHOD_EKF);
     open_site(&request);
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_int_eq(result.rows.rows[0].state, INSOLE_FIX_SEARCH);
     ck_assert_int_eq(result.facts.last.state, INSOLE_FIX_TRACK);
     ck_assert_uint_ge(result.facts.phone.starts, 1u);
     ck_assert_uint_eq(result.events[EVENT_START], result.facts.phone.starts);
     ck_assert(result.facts.knows_place);
     ASSERT_AT_MOST(worst_error_m(&result.rows, 35.0), 5.0, "m");
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -173,12 +126,12 @@ START_TEST(without_fingerprints_the_steps_are_left)
 {
     write_logs(PHONE_LOGS_END_S, "");
     replay_request_t request = request_of(METHOD_PHONE_BEST);
-    run(&request);
+    replay_result_run(&result, &request);
     const track_row_t *last = &result.facts.last;
     ASSERT_NEAR(hypot(last->x_m, last->y_m), 1.4 * hypot(21.0, 16.0), 2.0, "m");
     ck_assert_uint_eq(result.facts.phone.points, 0u);
     ck_assert_uint_eq(result.events[EVENT_SCAN], 0u);
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -190,14 +143,14 @@ START_TEST(radio_alone_gives_a_row_for_each_scan)
     request.logs = &paths[1];
     request.log_count = 1u;
     request.rate_hz = 0.0;
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.rows.count, 43u);
     for (size_t i = 0u; i < result.rows.count; i++) {
         ck_assert_int_eq(result.rows.rows[i].t_us, 510000 + 1000000 * (int64_t)i);
         ck_assert_int_eq(result.rows.rows[i].state, INSOLE_FIX_TRACK);
     }
     ASSERT_AT_MOST(worst_error_m(&result.rows, 0.0), 6.0, "m");
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -227,10 +180,10 @@ START_TEST(rows_of_a_cut_session_are_those_of_the_whole)
     replay_request_t request = request_of(methods[_i / 5]);
     open_site(&request);
     write_logs(PHONE_LOGS_END_S, head);
-    run(&request);
-    track_t whole = take_rows();
+    replay_result_run(&result, &request);
+    track_t whole = replay_result_take_rows(&result);
     write_logs(cuts_s[_i % 5], head);
-    run(&request);
+    replay_result_run(&result, &request);
     size_t count = 0u;
     while (count < whole.count &&
            1e-6 * (double)whole.rows[count].t_us <= cuts_s[_i % 5] - 0.5 + 1e-9) {
@@ -239,7 +192,7 @@ START_TEST(rows_of_a_cut_session_are_those_of_the_whole)
     ck_assert_uint_ge(count, 10u);
     expect_same_rows(&whole, &result.rows, count);
     track_free(&whole);
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -249,13 +202,13 @@ START_TEST(replays_give_the_same_bits)
     write_logs(20.0, "");
     replay_request_t request = request_of(METHOD_PHONE_BEST);
     open_site(&request);
-    run(&request);
-    track_t first = take_rows();
-    run(&request);
+    replay_result_run(&result, &request);
+    track_t first = replay_result_take_rows(&result);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(first.count, result.rows.count);
     expect_same_rows(&first, &result.rows, first.count);
     track_free(&first);
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -265,14 +218,14 @@ START_TEST(truth_does_not_reach_the_tracker)
     write_logs(20.0, start_line);
     replay_request_t request = request_of(METHOD_PHONE_BEST);
     open_site(&request);
-    run(&request);
-    track_t first = take_rows();
+    replay_result_run(&result, &request);
+    track_t first = replay_result_take_rows(&result);
     write_logs(20.0, "start,0,4,4,0,0.2,0.05\ntruth,0,90,90\ntruth,19,-90,90\n");
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.facts.truth.count, 2u);
     expect_same_rows(&first, &result.rows, first.count);
     track_free(&first);
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -293,14 +246,14 @@ START_TEST(trouble_does_not_stop_the_track)
     write_logs(PHONE_LOGS_END_S, head);
     replay_request_t request = request_of(METHOD_PHONE_BEST);
     open_site(&request);
-    run(&request);
+    replay_result_run(&result, &request);
     for (size_t i = 0u; i < result.rows.count; i++) {
         const track_row_t *row = &result.rows.rows[i];
         ck_assert(isfinite(row->x_m) && isfinite(row->y_m) && isfinite(row->heading_rad));
         ck_assert(row->var_x_m2 >= 0.0 && row->var_y_m2 >= 0.0);
     }
     ASSERT_AT_MOST(hypot(result.facts.last.x_m - 33.4, result.facts.last.y_m - 26.4), 4.0, "m");
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
 }
 END_TEST
@@ -310,10 +263,10 @@ START_TEST(settings_the_library_does_not_take_are_told)
     write_logs(5.0, start_line);
     replay_request_t request = request_of(METHOD_PHONE_BEST);
     request.settings.phone.tracker.gap_s = (insole_real_t)NAN;
-    const replay_sink_t sink = {&result, NULL, keep_row, keep_event};
+    const replay_sink_t sink = {&result, NULL, replay_result_keep_row, replay_result_keep_event};
     ck_assert(!replay_run(&request, &sink, &result.facts, &result.failure));
     ck_assert_uint_gt(strlen(result.failure.text), 0u);
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -419,20 +372,46 @@ START_TEST(zee_needs_no_start)
     ck_assert(site_open(&site, plan, NULL, NULL, &request.settings.propagation, &result.failure));
     request.site = &site;
     request.particles = 2000u;
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.facts.phone.starts, 1u);
     ck_assert_uint_eq(result.events[EVENT_SCAN], 0u);
     ASSERT_AT_LEAST(result.facts.last.var_x_m2, 25.0, "m^2");
     ASSERT_AT_MOST(fabs(result.facts.last.x_m - 30.0), 25.0, "m");
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
     open_site(&request);
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.facts.phone.starts, 1u);
     ASSERT_AT_MOST(worst_error_m(&result.rows, 2.0), 20.0, "m");
     ASSERT_AT_MOST(fabs(result.rows.rows[20].x_m - 4.0), 6.0, "m");
-    clear();
+    replay_result_clear(&result);
     site_free(&site);
+}
+END_TEST
+
+/* Fixes on the way are counted, and those on the map of another building. */
+START_TEST(a_plan_of_elsewhere_is_noticed)
+{
+    static const struct {
+        const char *plan;
+        bool is_elsewhere;
+    } CASES[] = {{"outline,0,0,60,0,60,60,0,60\n", false},
+                 {"outline,100,0,160,0,160,60,100,60\n", true}};
+    write_logs(PHONE_LOGS_END_S, start_line);
+    for (size_t i = 0u; i < 2u; i++) {
+        replay_request_t request = request_of(METHOD_PHONE_BEST);
+        const char *plan = scratch_file("plan.csv", CASES[i].plan);
+        ck_assert(
+            site_open(&site, plan, NULL, NULL, &request.settings.propagation, &result.failure));
+        request.site = &site;
+        replay_result_run(&result, &request);
+        ck_assert_uint_eq(result.facts.fusion.walls, 4u);
+        ck_assert_uint_eq(result.facts.phone.particles, 200u);
+        ck_assert_uint_eq(result.facts.fusion.outside,
+                          CASES[i].is_elsewhere ? result.facts.fixes : 0u);
+        replay_result_clear(&result);
+        site_free(&site);
+    }
 }
 END_TEST
 
@@ -472,6 +451,7 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "clouds", rivals_have_clouds_of_their_own, 6);
     suite_add(suite, "solver", fixes_may_be_made_by_another_solver);
     suite_add(suite, "zee", zee_needs_no_start);
+    suite_add(suite, "plan of elsewhere", a_plan_of_elsewhere_is_noticed);
     suite_add(suite, "constant", constant_covariances_are_those_of_the_rivals_alone);
     return suite;
 }

@@ -6,38 +6,14 @@
 #include "files.h"
 #include "foot_walk.h"
 #include "near.h"
+#include "replay_result.h"
 #include "scoring.h"
 #include "suite.h"
 
 /* 20 strides of 1.3 m, 7 degrees left in each. */
 static const foot_walk_t bend = {2.0, 1.3, 0.12, 200.0, 20, -3.25};
 
-/* What a replay gave. */
-typedef struct {
-    track_t rows;
-    event_t events[400];
-    int event_count;
-    replay_facts_t facts;
-    failure_t failure;
-} result_t;
-
-static result_t result;
-
-static bool keep_row(void *context, const track_row_t *row, failure_t *failure)
-{
-    (void)failure;
-    track_add(&((result_t *)context)->rows, row);
-    return true;
-}
-
-static bool keep_event(void *context, const event_t *event, failure_t *failure)
-{
-    result_t *to = context;
-    (void)failure;
-    ck_assert_int_lt(to->event_count, 400);
-    to->events[to->event_count++] = *event;
-    return true;
-}
+static replay_result_t result;
 
 static const char *write_walk(const foot_walk_t *walk, const char *name, const char *head)
 {
@@ -62,20 +38,6 @@ static replay_request_t request_of(const char *const *path)
     return request;
 }
 
-static void run(const replay_request_t *request)
-{
-    const replay_sink_t sink = {&result, NULL, keep_row, keep_event};
-    ck_assert_msg(replay_run(request, &sink, &result.facts, &result.failure), "%s",
-                  result.failure.text);
-}
-
-static void clear(void)
-{
-    track_free(&result.rows);
-    replay_facts_free(&result.facts);
-    memset(&result, 0, sizeof result);
-}
-
 static const track_row_t *last_row(void)
 {
     return &result.rows.rows[result.rows.count - 1u];
@@ -85,7 +47,7 @@ START_TEST(a_walk_is_found_again)
 {
     const char *const path = write_walk(&bend, "walk.csv", "");
     replay_request_t request = request_of(&path);
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.facts.strides, 20u);
     ck_assert_uint_eq(result.rows.count, 261u); /* 26 s at 10 Hz */
     for (size_t i = 0u; i < result.rows.count; i++) {
@@ -98,7 +60,7 @@ START_TEST(a_walk_is_found_again)
         ck_assert(row->var_x_m2 >= 0.0 && row->var_y_m2 >= 0.0 && row->var_z_m2 >= 0.0);
     }
     ck_assert_int_eq(last_row()->state, INSOLE_FIX_TRACK);
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -108,9 +70,9 @@ START_TEST(strides_and_stances_are_told)
     replay_request_t request = request_of(&path);
     int strides = 0, stances = 0;
     int64_t end_us = INT64_MIN;
-    run(&request);
-    for (int i = 0; i < result.event_count; i++) {
-        const event_t *event = &result.events[i];
+    replay_result_run(&result, &request);
+    for (int i = 0; i < result.count; i++) {
+        const event_t *event = &result.list[i];
         ck_assert_int_ge(event->end_us, event->begin_us);
         if (event->kind == EVENT_STRIDE) {
             double lift_s = bend.begin_s + bend.rest_s + strides * (SWING_S + STANCE_S);
@@ -130,7 +92,7 @@ START_TEST(strides_and_stances_are_told)
     ck_assert_int_eq(strides, 20);
     ck_assert_int_ge(stances, 20);
     ASSERT_NEAR(result.facts.walked_m, 26.0, 0.1, "m");
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -155,7 +117,7 @@ START_TEST(a_start_in_the_log_is_used)
 {
     const char *const path = write_walk(&bend, "start.csv", "start,-3.25,100,50,1.57079633\n");
     replay_request_t request = request_of(&path);
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert(result.facts.knows_place && result.facts.knows_heading);
     ASSERT_NEAR(result.rows.rows[0].x_m, 100.0, 1e-4, "m");
     ASSERT_NEAR(result.rows.rows[0].y_m, 50.0, 1e-4, "m");
@@ -164,7 +126,7 @@ START_TEST(a_start_in_the_log_is_used)
     foot_pose_t end = foot_walk_pose(&bend, foot_walk_duration(&bend));
     ASSERT_NEAR(last_row()->x_m, 100.0 + c * end.x_m - s * end.y_m, 0.1, "m");
     ASSERT_NEAR(last_row()->y_m, 50.0 + s * end.x_m + c * end.y_m, 0.1, "m");
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -176,17 +138,17 @@ START_TEST(a_start_from_outside_replaces_that_of_the_log)
         RECORD_START, 0, 0u, {-7.0, 2.0, (double)NAN, (double)NAN, (double)NAN, (double)NAN}};
     request.has_start = true;
     request.start = start;
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert(result.facts.knows_place && !result.facts.knows_heading);
     ASSERT_NEAR(result.rows.rows[0].x_m, -7.0, 1e-6, "m");
     ASSERT_NEAR(result.rows.rows[0].y_m, 2.0, 1e-6, "m");
-    clear();
+    replay_result_clear(&result);
     request.has_start = false;
     request.no_start = true;
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert(!result.facts.knows_place);
     ASSERT_NEAR(result.rows.rows[0].x_m, 0.0, 1e-6, "m");
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -196,7 +158,7 @@ START_TEST(what_was_before_the_start_is_not_drawn)
     const char *const path = write_walk(&bend, "late.csv", "truth,-3.25,0,0\nstart,1.02,100,50\n");
     replay_request_t request = request_of(&path);
     score_t score;
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_int_eq(result.facts.start_us, 1020000);
     memset(&score, 0, sizeof score);
     score.motion.x_m = 1000.0;
@@ -209,7 +171,7 @@ START_TEST(what_was_before_the_start_is_not_drawn)
     drawn = scoring_drawn(&result.facts, &result.rows, NULL);
     ck_assert_uint_eq(drawn.count, result.rows.count);
     track_free(&drawn);
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -221,20 +183,20 @@ START_TEST(truth_does_not_reach_the_tracker)
     track_t before;
     const char *const path = write_walk(&bend, "untold.csv", "");
     replay_request_t request = request_of(&path);
-    run(&request);
+    replay_result_run(&result, &request);
     before = result.rows;
     memset(&result.rows, 0, sizeof result.rows);
-    clear();
+    replay_result_clear(&result);
     const char *const told = write_walk(&bend, "told.csv",
                                         "truth,-3.25,500,500,3\ntruth,-1,501,500\n"
                                         "truth,20,-77,0\n");
     request.logs = &told;
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.facts.truth.count, 3u);
     ck_assert_uint_eq(result.rows.count, before.count);
     expect_same_rows(&result.rows, &before, before.count);
     track_free(&before);
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -242,15 +204,15 @@ START_TEST(replays_give_the_same_bits)
 {
     const char *const path = write_walk(&bend, "walk.csv", "");
     replay_request_t request = request_of(&path);
-    run(&request);
+    replay_result_run(&result, &request);
     track_t first = result.rows;
     memset(&result.rows, 0, sizeof result.rows);
-    clear();
-    run(&request);
+    replay_result_clear(&result);
+    replay_result_run(&result, &request);
     ck_assert_uint_eq(result.rows.count, first.count);
     expect_same_rows(&result.rows, &first, first.count);
     track_free(&first);
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -285,20 +247,20 @@ START_TEST(rows_of_a_cut_log_are_those_of_the_whole)
     for (size_t r = 0u; r < 3u; r++) {
         replay_request_t request = request_of(&path);
         request.rate_hz = rates_hz[r];
-        run(&request);
+        replay_result_run(&result, &request);
         track_t rows = result.rows;
         memset(&result.rows, 0, sizeof result.rows);
-        clear();
+        replay_result_clear(&result);
         for (size_t i = 0u; i < sizeof cuts_s / sizeof cuts_s[0]; i++) {
             const char *const cut = cut_log(whole, "cut.csv", cuts_s[i]);
             request.logs = &cut;
-            run(&request);
+            replay_result_run(&result, &request);
             size_t n = 0u;
             while (n < rows.count && 1e-6 * (double)rows.rows[n].t_us <= cuts_s[i] - 0.5) {
                 n++;
             }
             expect_same_rows(&rows, &result.rows, n);
-            clear();
+            replay_result_clear(&result);
         }
         track_free(&rows);
     }
@@ -314,7 +276,7 @@ START_TEST(nobody_need_take_the_results)
     replay_sink_t sink = {NULL, NULL, NULL, NULL};
     ck_assert(replay_run(&request, &sink, &result.facts, &result.failure));
     ck_assert_uint_eq(result.facts.strides, 20u);
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -333,7 +295,7 @@ START_TEST(who_takes_the_results_can_stop_the_replay)
     ck_assert(!replay_run(&request, &sink, &result.facts, &result.failure));
     ck_assert_str_eq(result.failure.text, "enough");
     ck_assert_uint_le(result.facts.strides, 1u);
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -345,7 +307,7 @@ START_TEST(settings_the_library_does_not_take_are_told)
     request.settings.fusion.foot.zupt_ekf.sigma_zupt_mps = INSOLE_R(-1.0);
     ck_assert(!replay_run(&request, &sink, &result.facts, &result.failure));
     ck_assert_str_eq(result.failure.text, "insole: the tracker does not take these settings");
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 
@@ -384,7 +346,7 @@ START_TEST(rows_are_finite_whatever_comes_in)
     }
     fclose(file);
     replay_request_t request = request_of(&path);
-    run(&request);
+    replay_result_run(&result, &request);
     ck_assert_uint_gt(result.rows.count, 100u);
     for (size_t i = 0u; i < result.rows.count; i++) {
         const track_row_t *row = &result.rows.rows[i];
@@ -394,7 +356,7 @@ START_TEST(rows_are_finite_whatever_comes_in)
                   isfinite(row->var_heading_rad2));
         ck_assert(i == 0u || row->t_us > result.rows.rows[i - 1u].t_us);
     }
-    clear();
+    replay_result_clear(&result);
 }
 END_TEST
 

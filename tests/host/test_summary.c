@@ -89,11 +89,16 @@ static void spoil(int what)
     }
 }
 
-static const char *const words[] = {
-    "is the sensor on the shoe",   "does not begin at rest",        "did anybody walk?",
-    "50 readings per second",      "3 gaps",                        "cut off in 12 readings",
-    "is its unit right",           "the accelerometer reads 9.880", "no start is known",
-    "the start tells no heading"};
+static const char *const words[] = {"is the sensor on the shoe",
+                                    "does not begin at rest",
+                                    "did anybody walk?",
+                                    "50 readings per second",
+                                    "3 gaps",
+                                    "cut off in 12 readings",
+                                    "is its unit right",
+                                    "the accelerometer reads 9.880",
+                                    "no start is known",
+                                    "the start tells no heading"};
 
 START_TEST(what_is_wrong_is_told)
 {
@@ -124,15 +129,16 @@ START_TEST(the_summary_for_people)
     facts.screen.evened = 5u;
     FILE *file = tmpfile();
     summary_print(file, &summary);
-    ck_assert_str_eq(text_of(file),
-                     "foot tracker, method ins\n"
-                     "  duration       10.0 s, 2001 readings at 200.0 Hz\n"
-                     "  distance       9.13 m in 7 strides\n"
-                     "  foot still     25.0 % of the time, in 8 stances\n"
-                     "  final position 1.500, -2.250, height 0.063 m, 1-sigma 0.500 m, state track\n"
-                     "  refused        2 repeated stamps\n"
-                     "  repaired       3 spikes, 5 stamps of bursts evened out, 40 averaged\n"
-                     "  the log lacks  mag, rss, range\n");
+    ck_assert_str_eq(
+        text_of(file),
+        "foot tracker, method ins\n"
+        "  duration       10.0 s, 2001 readings at 200.0 Hz\n"
+        "  distance       9.13 m in 7 strides\n"
+        "  foot still     25.0 % of the time, in 8 stances\n"
+        "  final position 1.500, -2.250, height 0.063 m, 1-sigma 0.500 m, state track\n"
+        "  refused        2 repeated stamps\n"
+        "  repaired       3 spikes, 5 stamps of bursts evened out, 40 averaged\n"
+        "  the log lacks  mag, rss, range\n");
     for (int kind = 0; kind < RECORD_KINDS; kind++) {
         facts.seen[kind] = 1u;
     }
@@ -156,13 +162,24 @@ START_TEST(the_summary_for_programs)
     FILE *file = tmpfile();
     summary_json(file, &summary);
     const char *text = text_of(file);
-    static const char *const expected[] = {
-        "\"tracker\": \"foot\",", "\"method\": \"ins\",", "\"duration_s\": 10.000000,",
-        "\"readings\": 2001,", "\"rate_hz\": 200.000,", "\"distance_m\": 9.1250,",
-        "\"strides\": 7,", "\"stances\": 8,", "\"still_share\": 0.2500,",
-        "\"t_s\": 9.000000,", "\"x_m\": 1.5000,", "\"sigma_m\": 0.5000,",
-        "\"state\": \"track\"", "\"gaps\": 2", "\"mag\",", "\"range\"\n", "\"notes\": [\n",
-        "\"rms_m\": 0.1250,"};
+    static const char *const expected[] = {"\"tracker\": \"foot\",",
+                                           "\"method\": \"ins\",",
+                                           "\"duration_s\": 10.000000,",
+                                           "\"readings\": 2001,",
+                                           "\"rate_hz\": 200.000,",
+                                           "\"distance_m\": 9.1250,",
+                                           "\"strides\": 7,",
+                                           "\"stances\": 8,",
+                                           "\"still_share\": 0.2500,",
+                                           "\"t_s\": 9.000000,",
+                                           "\"x_m\": 1.5000,",
+                                           "\"sigma_m\": 0.5000,",
+                                           "\"state\": \"track\"",
+                                           "\"gaps\": 2",
+                                           "\"mag\",",
+                                           "\"range\"\n",
+                                           "\"notes\": [\n",
+                                           "\"rms_m\": 0.1250,"};
     for (size_t i = 0u; i < sizeof expected / sizeof expected[0]; i++) {
         ck_assert_msg(strstr(text, expected[i]) != NULL, "no %s in:\n%s", expected[i], text);
     }
@@ -229,11 +246,20 @@ START_TEST(programs_are_told_of_building_and_radio)
     FILE *file = tmpfile();
     summary_json(file, &summary);
     const char *text = text_of(file);
-    static const char *const expected[] = {
-        "\"plan\": \"some/plan.csv\",", "\"walls\": 12,", "\"access_points\": 16\n",
-        "\"scans\": 30,", "\"worked_in\": 28,", "\"too_soon\": 3,", "\"of_no_use\": 1,",
-        "\"unknown_ids\": 2\n", "\"drawn\": 1,", "\"resampled\": 5,", "\"redrawn\": 6,",
-        "\"recovered\": 7,", "\"receiver_offset_db\": -3.250\n", "\"search\": 0.0005,"};
+    static const char *const expected[] = {"\"plan\": \"some/plan.csv\",",
+                                           "\"walls\": 12,",
+                                           "\"access_points\": 16\n",
+                                           "\"scans\": 30,",
+                                           "\"worked_in\": 28,",
+                                           "\"too_soon\": 3,",
+                                           "\"of_no_use\": 1,",
+                                           "\"unknown_ids\": 2\n",
+                                           "\"drawn\": 1,",
+                                           "\"resampled\": 5,",
+                                           "\"redrawn\": 6,",
+                                           "\"recovered\": 7,",
+                                           "\"receiver_offset_db\": -3.250\n",
+                                           "\"search\": 0.0005,"};
     for (size_t i = 0u; i < sizeof expected / sizeof expected[0]; i++) {
         ck_assert_msg(strstr(text, expected[i]) != NULL, "no %s in:\n%s", expected[i], text);
     }
@@ -291,17 +317,23 @@ static void spoil_fusion(int what)
         facts.fusion.starts_outside = true;
         facts.fusion.start_distance_m = 3.25;
         break;
-    default:
+    case 5:
         facts.fusion.starts_outside = true;
         facts.fusion.start_distance_m = REPLAY_FAR_M;
+        break;
+    default:
+        facts.fusion.outside = facts.fixes / 4u;
         break;
     }
 }
 
-static const char *const fusion_words[] = {
-    "the log hears 9 access points",  "are the ids the same?",
-    "radio was left out 4 times",     "went astray 11 times",
-    "outside the plan, 3.3 m from",   "outside the plan, more than 1000.0 m from"};
+static const char *const fusion_words[] = {"the log hears 9 access points",
+                                           "are the ids the same?",
+                                           "radio was left out 4 times",
+                                           "went astray 11 times",
+                                           "outside the plan, 3.3 m from",
+                                           "outside the plan, more than 1000.0 m from",
+                                           "25 % of the track lie outside the plan"};
 
 START_TEST(what_is_wrong_with_building_and_radio_is_told)
 {
@@ -316,8 +348,7 @@ Suite *insole_suite(void)
 {
     Suite *suite = suite_create("summary");
     suite_add(suite, "good", a_good_walk_needs_no_notes);
-    suite_add_loop(suite, "notes", what_is_wrong_is_told,
-                   (int)(sizeof words / sizeof words[0]));
+    suite_add_loop(suite, "notes", what_is_wrong_is_told, (int)(sizeof words / sizeof words[0]));
     suite_add(suite, "nothing", a_log_of_nothing_is_described);
     suite_add(suite, "text", the_summary_for_people);
     suite_add(suite, "json", the_summary_for_programs);

@@ -91,6 +91,22 @@ START_TEST(people_read_of_map_radio_and_compass)
 }
 END_TEST
 
+START_TEST(people_read_of_plan_and_particles)
+{
+    make_good_facts(METHOD_PHONE_BEST);
+    facts.fusion.walls = 52u;
+    facts.phone.particles = 500u;
+    site.plan_file.name = "some/plan.csv";
+    ck_assert_ptr_nonnull(strstr(printed("best"), "  building       plan.csv (52 walls)\n"
+                                                  "  cloud          500 particles, drawn 1 times\n"
+                                                  "  fingerprints   radiomap.csv"));
+    const char *json = as_json("best");
+    ck_assert_ptr_nonnull(strstr(json, "\"plan\": \"some/plan.csv\""));
+    ck_assert_ptr_nonnull(strstr(json, "\"walls\": 52"));
+    ck_assert_ptr_nonnull(strstr(json, "\"particles\": 500"));
+}
+END_TEST
+
 /* Whoever uses radio is told that there is no map; whoever does not, is not. */
 START_TEST(without_a_map_only_those_who_need_it_are_told)
 {
@@ -133,6 +149,8 @@ START_TEST(programs_read_all_of_it)
                                       "  },\n"
                                       "  \"phone\": {\n"
                                       "    \"radiomap\": \"some/radiomap.csv\",\n"
+                                      "    \"walls\": 0,\n"
+                                      "    \"particles\": 0,\n"
                                       "    \"points\": 120,\n"
                                       "    \"access_points\": 34,\n"
                                       "    \"scans\": 40,\n"
@@ -232,16 +250,25 @@ static void spoil(int what)
     case 6:
         facts.fusion.unknown_ids = 33u;
         break;
-    default:
+    case 7:
         facts.fusion.radio.wild = 4u;
+        break;
+    default:
+        facts.fusion.walls = 52u;
+        facts.fusion.outside = 6000u;
         break;
     }
 }
 
-static const char *const words[] = {
-    "no step was seen",           "1 long gap, in which",         "3 long gaps, in which",
-    "the track begins at (0, 0)", "until the direction is known", "the log hears 33 access points",
-    "is it of this building?",    "radio was left out 4 times"};
+static const char *const words[] = {"no step was seen",
+                                    "1 long gap, in which",
+                                    "3 long gaps, in which",
+                                    "the track begins at (0, 0)",
+                                    "until the direction is known",
+                                    "the log hears 33 access points",
+                                    "is it of this building?",
+                                    "radio was left out 4 times",
+                                    "50 % of the track lie outside the plan"};
 
 START_TEST(what_is_wrong_is_told)
 {
@@ -252,6 +279,20 @@ START_TEST(what_is_wrong_is_told)
     notes_take(&notes, &facts);
     ck_assert_int_eq(notes.count, 1);
     ck_assert_msg(strstr(notes.text[0], words[_i]) != NULL, "%s", notes.text[0]);
+}
+END_TEST
+
+/* Nobody used the plan, or the track left it for a moment only. */
+START_TEST(not_all_that_is_outside_is_told)
+{
+    make_good_facts(METHOD_EKF);
+    facts.fusion.outside = facts.fixes;
+    notes_take(&notes, &facts);
+    ck_assert_int_eq(notes.count, 0);
+    facts.fusion.walls = 52u;
+    facts.fusion.outside = 1200u;
+    notes_take(&notes, &facts);
+    ck_assert_int_eq(notes.count, 0);
 }
 END_TEST
 
@@ -273,12 +314,14 @@ Suite *insole_suite(void)
 {
     Suite *suite = suite_create("summary_phone");
     suite_add(suite, "text", people_read_of_map_radio_and_compass);
+    suite_add(suite, "plan", people_read_of_plan_and_particles);
     suite_add(suite, "no map", without_a_map_only_those_who_need_it_are_told);
     suite_add(suite, "json", programs_read_all_of_it);
     suite_add(suite, "whole", the_whole_speaks_of_a_phone);
     suite_add(suite, "whole json", a_program_reads_steps_and_no_stances);
     suite_add(suite, "radio alone", radio_alone_tells_no_steps);
     suite_add_loop(suite, "notes", what_is_wrong_is_told, (int)(sizeof words / sizeof words[0]));
+    suite_add(suite, "inside", not_all_that_is_outside_is_told);
     suite_add(suite, "direction", one_source_of_direction_is_enough);
     return suite;
 }

@@ -129,6 +129,18 @@ static void note_radio(notes_t *notes, const replay_facts_t *facts)
     }
 }
 
+/* A corridor drawn a little off is no reason for a note, another building is. */
+static void note_outside(notes_t *notes, const replay_facts_t *facts)
+{
+    char share[NUMBER_ROOM];
+    if (facts->fusion.walls > 0u && facts->fusion.outside > facts->fixes / 10u) {
+        note(notes,
+             "%s %% of the track lie outside the plan: are plan, start and radio of the "
+             "same map?",
+             number_fixed(share, 100.0 * (double)facts->fusion.outside / (double)facts->fixes, 0));
+    }
+}
+
 /* Now and then all particles die of a wall that is drawn a little off; often, of a wrong plan. */
 static void note_cloud(notes_t *notes, const replay_facts_t *facts)
 {
@@ -192,6 +204,7 @@ static void notes_of_phone(notes_t *notes, const replay_facts_t *facts)
     }
     if (!method_is_steps_alone(facts->method)) {
         note_map(notes, facts);
+        note_outside(notes, facts);
     }
 }
 
@@ -215,5 +228,6 @@ void notes_take(notes_t *notes, const replay_facts_t *facts)
     if (!method_is_first_order(facts->method)) {
         note_radio(notes, facts);
         note_cloud(notes, facts);
+        note_outside(notes, facts);
     }
 }

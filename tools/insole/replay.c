@@ -54,6 +54,24 @@ static void note_place(run_t *run, const track_row_t *fix)
     }
 }
 
+static const insole_floor_plan_t *plan_of(const run_t *run)
+{
+    return run->request->site != NULL ? run->request->site->building.plan : NULL;
+}
+
+/* A track that walls stand in or that is a little beside its corridor is no track elsewhere. */
+static void note_outside(run_t *run, const track_row_t *fix)
+{
+    static const insole_real_t well_outside_m = INSOLE_R(2.0);
+    const insole_floor_plan_t *plan = plan_of(run);
+    insole_real_t x_m = to_real(fix->x_m), y_m = to_real(fix->y_m), distance_m = well_outside_m;
+    if (plan == NULL || !run->facts->knows_place || insole_floor_plan_inside(plan, x_m, y_m)) {
+        return;
+    }
+    (void)insole_floor_plan_clearance(plan, x_m, y_m, well_outside_m, &distance_m);
+    run->facts->fusion.outside += distance_m < well_outside_m ? 0u : 1u;
+}
+
 /* The fixes that are ready. */
 static bool give_fixes(run_t *run, failure_t *failure)
 {
@@ -65,6 +83,7 @@ static bool give_fixes(run_t *run, failure_t *failure)
         run->facts->fixes++;
         run->facts->states[fix.state]++;
         note_place(run, &fix);
+        note_outside(run, &fix);
         row_maker_push(&run->rows, &fix);
         if (!give_rows(run, failure)) {
             return false;
@@ -86,8 +105,7 @@ static bool drain(run_t *run, failure_t *failure)
 /* A start where the plan says that nobody can be. */
 static void check_start(run_t *run, const record_t *start)
 {
-    const insole_floor_plan_t *plan =
-        run->request->site != NULL ? run->request->site->building.plan : NULL;
+    const insole_floor_plan_t *plan = plan_of(run);
     insole_real_t x_m = to_real(start->value[0]), y_m = to_real(start->value[1]);
     insole_real_t distance_m = (insole_real_t)REPLAY_FAR_M;
     if (plan != NULL && !insole_floor_plan_inside(plan, x_m, y_m)) {
@@ -264,6 +282,15 @@ static void gather_foot(run_t *run)
     gather_fusion(run, &run->facts->fusion);
 }
 
+/* The particles of a phone, and the plan they walk in. */
+static void gather_flock(const phone_parts_t *parts, replay_facts_t *facts)
+{
+    const insole_floor_plan_t *plan = parts->step_cloud.building.plan;
+    bool has_flock = parts->memory.particles != NULL;
+    facts->phone.particles = has_flock ? parts->memory.count : 0u;
+    facts->fusion.walls = has_flock && plan != NULL ? plan->wall_count : 0u;
+}
+
 static void gather_phone(run_t *run)
 {
     const phone_estimator_t *phone = &run->estimator.phone;
@@ -273,6 +300,7 @@ static void gather_phone(run_t *run)
     run->facts->gravity_mps2 = (double)phone->tracker.still_bias.gravity_mps2;
     run->facts->rests = phone->tracker.still_bias.rests;
     run->facts->fusion.radio = phone->counts;
+    gather_flock(&phone->parts, run->facts);
     count_ids(run, &run->facts->fusion);
     facts->points = map != NULL ? map->point_count : 0u;
     facts->aps = map != NULL ? map->ap_count : 0u;

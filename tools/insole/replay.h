@@ -52,8 +52,9 @@ typedef struct {
     uint32_t starts;              /**< times the particles were drawn */
     insole_particle_counts_t particles;
     bool has_offset;
-    double offset_db; /**< the receiver hears so much stronger than expected */
-    track_t cloud;    /**< the living particles at the end, the heaviest last; only places */
+    double offset_db;      /**< the receiver hears so much stronger than expected */
+    track_t cloud;         /**< the living particles at the end, the heaviest last; only places */
+    unsigned long outside; /**< fixes well outside the plan, since the track is on the map */
     bool starts_outside;
     double start_distance_m; /**< then: from the nearest wall, at most REPLAY_FAR_M */
 } replay_fusion_t;
@@ -66,6 +67,7 @@ typedef struct {
     unsigned long unplaced;    /**< scans that gave no position */
     unsigned long magnetic;    /**< readings of the magnetometer taken */
     unsigned long starts;      /**< times the filter was started */
+    unsigned long particles;   /**< that carry the track; 0: none do */
     unsigned long gaps;        /**< long ones in the readings */
 } replay_phone_t;
 
@@ -86,7 +88,7 @@ typedef struct {
     insole_foot_counts_t foot;
     double gravity_mps2;    /**< as the tracker took it in the end */
     unsigned long rests;    /**< of the sensor, not stances of a walk */
-    replay_fusion_t fusion; /**< of a phone only its radio, without ranges */
+    replay_fusion_t fusion; /**< of a phone only its building and radio, without ranges */
     replay_phone_t phone;
     track_t truth; /**< found in the logs; never shown to the tracker */
 } replay_facts_t;

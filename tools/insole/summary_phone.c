@@ -18,9 +18,23 @@ static void print_radio(FILE *file, const replay_facts_t *facts)
     putc('\n', file);
 }
 
+static void print_building(FILE *file, const summary_t *summary)
+{
+    const replay_facts_t *facts = summary->facts;
+    if (facts->fusion.walls > 0u) {
+        fprintf(file, "  building       %s (%lu walls)\n",
+                platform_base_name(summary->site->plan_file.name), facts->fusion.walls);
+    }
+    if (facts->phone.particles > 0u) {
+        fprintf(file, "  cloud          %lu particles, drawn %lu times\n", facts->phone.particles,
+                facts->phone.starts);
+    }
+}
+
 void summary_phone_print(FILE *file, const summary_t *summary)
 {
     const replay_facts_t *facts = summary->facts;
+    print_building(file, summary);
     if (facts->phone.points > 0u) {
         fprintf(file, "  fingerprints   %s (%lu points, %lu access points)\n",
                 platform_base_name(summary->site->radiomap_file.name), facts->phone.points,
@@ -38,9 +52,14 @@ void summary_phone_json(json_t *json, const summary_t *summary)
     const replay_facts_t *facts = summary->facts;
     summary_states_json(json, facts);
     json_object(json, "phone");
+    if (facts->fusion.walls > 0u) {
+        json_text(json, "plan", summary->site->plan_file.name);
+    }
     if (facts->phone.points > 0u) {
         json_text(json, "radiomap", summary->site->radiomap_file.name);
     }
+    json_whole(json, "walls", (long long)facts->fusion.walls);
+    json_whole(json, "particles", (long long)facts->phone.particles);
     json_whole(json, "points", (long long)facts->phone.points);
     json_whole(json, "access_points", (long long)facts->phone.aps);
     json_whole(json, "scans", (long long)facts->fusion.radio.scans);
