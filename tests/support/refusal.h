@@ -6,7 +6,6 @@
 #define INSOLE_TESTS_REFUSAL_H
 
 #include <check.h>
-#include <math.h>
 #include <string.h>
 
 /** The call answers `expected` and leaves every byte of `state` as it was. */
@@ -30,27 +29,5 @@
                       "%s changed more of %s than its counter", #call, #state);                    \
         (counter)++;                                                                               \
     } while (0)
-
-#define SETTING_NAN_REAL(setting, judge)                                                           \
-    ck_assert_int_eq(((setting) = (insole_real_t)NAN, (judge)), INSOLE_ERR_VALUE)
-#define SETTING_NAN_INT(setting, judge)
-#define SETTING_NAN_CHOICE(setting, judge)
-
-/** For a KEYS list: each setting of `config` is refused outside its range and taken at its ends.
- *  Needs a config struct `config` and a function `insole_status_t judge(void)` that tries it. */
-#define SETTING_HAS_ENDS(kind, name, value, low, high, unit, text)                                 \
-    do {                                                                                           \
-        INSOLE_CONFIG_TYPE_##kind setting_ = config.name;                                          \
-        config.name = INSOLE_CONFIG_LITERAL_##kind(low) - 1;                                       \
-        ck_assert_msg(judge() == INSOLE_ERR_VALUE, "%s below its range", #name);                   \
-        config.name = (high > 0 ? 2 : 1) * INSOLE_CONFIG_LITERAL_##kind(high) + 1;                 \
-        ck_assert_msg(judge() == INSOLE_ERR_VALUE, "%s above its range", #name);                   \
-        SETTING_NAN_##kind(config.name, judge());                                                  \
-        config.name = INSOLE_CONFIG_LITERAL_##kind(low);                                           \
-        ck_assert_msg(judge() == INSOLE_OK, "%s at its low end", #name);                           \
-        config.name = INSOLE_CONFIG_LITERAL_##kind(high);                                          \
-        ck_assert_msg(judge() == INSOLE_OK, "%s at its high end", #name);                          \
-        config.name = setting_;                                                                    \
-    } while (0);
 
 #endif

@@ -8,6 +8,7 @@
 #include "phone.h"
 #include "refusal.h"
 #include "sample.h"
+#include "setting.h"
 #include "suite.h"
 
 #define PI  3.14159265358979323846

@@ -4,6 +4,7 @@
 #include "carry_walk.h"
 #include "near.h"
 #include "refusal.h"
+#include "setting.h"
 #include "suite.h"
 
 enum { POINT_US = INSOLE_CARRY_GRID_US, WEAK = 0, STRONG = 1, SWUNG = 2 };

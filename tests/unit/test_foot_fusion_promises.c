@@ -3,6 +3,7 @@
 #include "insole/base/snapshot.h"
 #include "insole/track/foot_fusion.h"
 #include "refusal.h"
+#include "setting.h"
 #include "suite.h"
 
 /* What holds whatever is told. */

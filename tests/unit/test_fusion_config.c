@@ -3,6 +3,7 @@
 
 #include "near.h"
 #include "refusal.h"
+#include "setting.h"
 #include "suite.h"
 
 static insole_foot_fusion_config_t config;

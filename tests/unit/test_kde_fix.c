@@ -3,6 +3,7 @@
 
 #include "fingerprints.h"
 #include "refusal.h"
+#include "setting.h"
 #include "suite.h"
 
 enum { APS = 60 };

@@ -6,6 +6,7 @@
 #include "near.h"
 #include "phone.h"
 #include "refusal.h"
+#include "setting.h"
 #include "suite.h"
 
 #define PI  3.14159265358979323846

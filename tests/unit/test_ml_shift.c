@@ -7,6 +7,7 @@
 #include "near.h"
 #include "plane.h"
 #include "refusal.h"
+#include "setting.h"
 #include "suite.h"
 
 #define EPS ((double)INSOLE_REAL_EPSILON)

@@ -5,49 +5,23 @@
 #include <string.h>
 
 #include "near.h"
-#include "oracle.h"
+#include "setting.h"
 #include "suite.h"
 
 static insole_particle_filter_config_t config;
 
-static void expect(insole_status_t expected, const char *name)
+static insole_status_t judge(void)
 {
     insole_particle_filter_config_t before = config;
     insole_status_t status = insole_particle_config_check(&config);
-    ck_assert_msg(status == expected, "%s: %d, expected %d", name, status, expected);
     ck_assert_mem_eq(&config, &before, sizeof config);
+    return status;
 }
 
-static void try_real(insole_real_t *key, insole_real_t low, insole_real_t high, const char *name)
+static void expect(insole_status_t expected, const char *name)
 {
-    const insole_real_t kept = *key;
-    const insole_real_t in[] = {low, high, INSOLE_R(0.5) * (low + high)};
-    const insole_real_t out[] = {REAL_NEXT(low, -INSOLE_REAL_MAX), REAL_NEXT(high, INSOLE_REAL_MAX),
-                                 (insole_real_t)(double)NAN, (insole_real_t)(double)INFINITY};
-    for (size_t i = 0; i < sizeof in / sizeof in[0]; i++) {
-        *key = in[i];
-        expect(INSOLE_OK, name);
-    }
-    for (size_t i = 0; i < sizeof out / sizeof out[0]; i++) {
-        *key = out[i];
-        expect(INSOLE_ERR_VALUE, name);
-    }
-    *key = kept;
+    setting_expect(judge, expected, name, 0.0);
 }
-
-static void try_choice(int32_t *key, int32_t low, int32_t high, const char *name)
-{
-    const int32_t kept = *key;
-    for (int32_t choice = low - 2; choice <= high + 2; choice++) {
-        *key = choice;
-        expect(choice < low || choice > high ? INSOLE_ERR_VALUE : INSOLE_OK, name);
-    }
-    *key = kept;
-}
-
-#define TRY_REAL(key, low, high, name)                try_real(key, INSOLE_R(low), INSOLE_R(high), name);
-#define TRY_CHOICE(key, low, high, name)              try_choice(key, low, high, name);
-#define TRY(kind, name, value, low, high, unit, text) TRY_##kind(&config.name, low, high, #name)
 
 START_TEST(settings_are_in_range_or_refused)
 {
@@ -56,7 +30,7 @@ START_TEST(settings_are_in_range_or_refused)
         &insole_particle_filter_phone, &insole_particle_filter_phone_plain};
     config = *settings[_i];
     expect(INSOLE_OK, "as it is");
-    INSOLE_PARTICLE_FILTER_KEYS(TRY)
+    INSOLE_PARTICLE_FILTER_KEYS(SETTING_HAS_ENDS)
     config.field.spacing_m = -1;
     expect(INSOLE_ERR_VALUE, "a setting of the field");
     ck_assert_int_eq(insole_particle_config_check(NULL), INSOLE_ERR_NULL);

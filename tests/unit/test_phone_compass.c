@@ -4,6 +4,7 @@
 #include "insole/base/rng.h"
 #include "near.h"
 #include "refusal.h"
+#include "setting.h"
 #include "suite.h"
 
 #define PI 3.14159265358979323846

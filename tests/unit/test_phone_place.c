@@ -5,6 +5,7 @@
 
 #include "near.h"
 #include "refusal.h"
+#include "setting.h"
 #include "suite.h"
 
 #define PI 3.14159265358979323846

@@ -3,6 +3,7 @@
 
 #include "hand_walk.h"
 #include "refusal.h"
+#include "setting.h"
 #include "stroll.h"
 #include "suite.h"
 

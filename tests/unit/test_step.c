@@ -7,6 +7,7 @@
 #include "near.h"
 #include "refusal.h"
 #include "sample.h"
+#include "setting.h"
 #include "suite.h"
 
 enum { TOLD_MAX = 600 };

@@ -6,6 +6,7 @@
 #include "near.h"
 #include "refusal.h"
 #include "sample.h"
+#include "setting.h"
 #include "suite.h"
 
 static insole_step_length_config_t config;

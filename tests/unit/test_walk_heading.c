@@ -8,6 +8,7 @@
 #include "phone.h"
 #include "refusal.h"
 #include "sample.h"
+#include "setting.h"
 #include "stroll.h"
 #include "suite.h"
 

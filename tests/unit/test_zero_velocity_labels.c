@@ -3,6 +3,7 @@
 
 #include "near.h"
 #include "refusal.h"
+#include "setting.h"
 #include "suite.h"
 #include "walk_samples.h"
 
