@@ -139,7 +139,7 @@ refuses 2 'insole replay: --set unknown key "sigma_zupt": did you mean zupt_ekf.
 refuses 2 'insole replay: --set zupt_ekf.sigma_zupt_mps: 9 is out of range: expected 0.0001 .. 1 m/s' \
     replay walk.csv --set zupt_ekf.sigma_zupt_mps=9
 refuses 2 'insole replay: --set "method": expected key=value' replay walk.csv --set method
-refuses 2 'insole replay: only one of --out -, --events -, --plot - and --json can have the standard output' \
+refuses 2 'insole replay: only one of --out -, --events -, --plot -, --report - and --json can have the standard output' \
     replay walk.csv --out - --json
 refuses 2 'insole replay: --out walk.csv would overwrite what is read' \
     replay walk.csv --out walk.csv
@@ -188,6 +188,15 @@ has track.csv 't,x,y,z,heading,var_x,cov_xy,var_y,var_z,var_heading,state'
 [ "$(wc -l <track.csv)" -eq 152 ] || fail 'not a row for every 0.1 s'
 [ "$(grep -c '^stride,' events.csv)" -eq 10 ] || fail 'not ten strides among the events'
 has plot.svg '</svg>'
+
+run replay walk.csv --truth loop.csv --report page.html
+status_is 0; empty out
+has page.html '<title>walk.csv</title>'
+has page.html 'foot tracker, method best'
+[ "$(grep -c '^<svg' page.html)" -eq 2 ] || fail 'not two pictures in the report'
+refuses 2 'insole replay: --report loop.csv would overwrite what is read' \
+    replay walk.csv --truth loop.csv --report loop.csv
+refuses 1 'nowhere/page.html: cannot write: No such file or directory' replay walk.csv --report nowhere/page.html
 
 run replay walk.csv
 status_is 0; empty out

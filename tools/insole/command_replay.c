@@ -10,6 +10,7 @@
 #include "platform.h"
 #include "plot.h"
 #include "replay_options.h"
+#include "report.h"
 #include "scoring.h"
 #include "summary.h"
 #include "track_writer.h"
@@ -65,10 +66,10 @@ static bool is_input(const job_t *job, const session_t *session, const char *pat
 
 static bool check_outputs(const job_t *job, const session_t *session, failure_t *failure)
 {
-    const char *const names[] = {"out", "events", "plot"};
+    static const char *const names[] = {"out", "events", "plot", "report"};
     const char *command = job->arguments->command;
     int to_stdout = options_has(job->arguments, "json") ? 1 : 0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         const char *path = options_value(job->arguments, names[i]);
         to_stdout += path != NULL && strcmp(path, "-") == 0 ? 1 : 0;
         if (path != NULL && is_input(job, session, path)) {
@@ -78,8 +79,8 @@ static bool check_outputs(const job_t *job, const session_t *session, failure_t 
     }
     if (to_stdout > 1) {
         return failure_usage(failure,
-                             "insole %s: only one of --out -, --events -, --plot - and --json "
-                             "can have the standard output",
+                             "insole %s: only one of --out -, --events -, --plot -, --report - and "
+                             "--json can have the standard output",
                              command);
     }
     return true;
@@ -100,8 +101,8 @@ static bool parse(job_t *job, failure_t *failure)
     const arguments_t *arguments = job->arguments;
     const char *format = options_value(arguments, "format");
     job->is_live = reads_stdin(arguments);
-    job->keeps_rows =
-        !job->is_live || options_has(arguments, "plot") || options_has(arguments, "truth");
+    job->keeps_rows = !job->is_live || options_has(arguments, "plot") ||
+                      options_has(arguments, "report") || options_has(arguments, "truth");
     return replay_options_parse(arguments, &job->request, failure) &&
            options_number(arguments, "rate", 0.0, 1000.0, &job->request.rate_hz, failure) &&
            replay_options_check(arguments, &job->request, failure) &&
@@ -157,9 +158,10 @@ static void describe(const summary_t *summary, char *text, size_t room)
 static bool draw(const job_t *job, const summary_t *summary, failure_t *failure)
 {
     const char *path = options_value(job->arguments, "plot");
+    const char *page = options_value(job->arguments, "report");
     const char *name = "track";
     char subtitle[200];
-    if (path == NULL) {
+    if (path == NULL && page == NULL) {
         return true;
     }
     track_t rows = scoring_drawn(&job->facts, &job->rows, summary->score);
@@ -172,12 +174,14 @@ static bool draw(const job_t *job, const summary_t *summary, failure_t *failure)
                    .truth = summary->score != NULL ? &job->scoring.truth : NULL,
                    .site = job->facts.knows_place ? job->request.site : NULL,
                    .cloud = &job->facts.fusion.cloud};
-    bool is_good = plot_write(&plot, path, failure);
+    const report_t report = {&plot, summary};
+    bool is_good = (path == NULL || plot_write(&plot, path, failure)) &&
+                   (page == NULL || report_write(&report, page, failure));
     track_free(&rows);
     return is_good;
 }
 
-static bool report(job_t *job, failure_t *failure)
+static bool conclude(job_t *job, failure_t *failure)
 {
     score_t score;
     summary_t summary = {tracker_name(job->request.tracker), method_name(job->request.method),
@@ -204,7 +208,7 @@ static bool run(const arguments_t *arguments, failure_t *failure)
     const replay_sink_t sink = {&job, open_files, take_row, take_event};
     bool is_good = parse(&job, failure) && replay_run(&job.request, &sink, &job.facts, failure);
     is_good = close_files(&job, is_good, failure);
-    is_good = is_good && report(&job, failure);
+    is_good = is_good && conclude(&job, failure);
     track_free(&job.rows);
     scoring_free(&job.scoring);
     replay_facts_free(&job.facts);
@@ -235,6 +239,7 @@ static const option_t options[] = {
     {"format", "FORMAT", "of the track: csv (default), tum or geojson"},
     {"events", "FILE", "write stances, strides, scans worked in, resamplings, ... as CSV"},
     {"plot", "FILE", "draw the track, and the truth if there is one, as SVG"},
+    {"report", "FILE", "write one HTML page: picture, error and uncertainty over time, summary"},
     {"json", NULL, "summary as JSON on standard output instead of text on stderr"},
     {NULL, NULL, NULL}};
 

@@ -106,6 +106,7 @@ static void draw_page(FILE *file, const site_t *site, const char *title, const c
     plot_area_t area = plot_area_empty();
     plot_plan_area(&area, &site->plan_file);
     plot_frame_t frame = plot_frame(area);
+    svg_head(file);
     svg_begin(file, frame.width, frame.height);
     plot_frame_draw(file, &frame);
     svg_text(file, frame.left, 32.0, "font-size=\"19\" font-weight=\"bold\" fill=\"#222\"", title);

@@ -354,7 +354,7 @@ static void draw_building(const page_t *page)
     }
 }
 
-static void draw_page(FILE *file, const plot_t *plot)
+void plot_draw(FILE *file, const plot_t *plot)
 {
     page_t page = {file, plot, fit_frame(plot), 0.0};
     svg_begin(file, page.frame.width, page.frame.height);
@@ -380,6 +380,7 @@ bool plot_write(const plot_t *plot, const char *path, failure_t *failure)
     if (!output_open(&file, path, failure)) {
         return false;
     }
-    draw_page(file, plot);
+    svg_head(file);
+    plot_draw(file, plot);
     return output_close(file, path, failure);
 }

@@ -30,6 +30,9 @@ typedef struct {
 /** Colour of a track among several, by its number. */
 const char *plot_colour(size_t number);
 
+/** The picture alone, for a page of its own. */
+void plot_draw(FILE *file, const plot_t *plot);
+
 /** @param path a file, or `-` for standard output */
 bool plot_write(const plot_t *plot, const char *path, failure_t *failure);
 

@@ -91,7 +91,7 @@ static void draw_line(FILE *file, const chart_t *chart, size_t number)
     svg_text(file, legend_x + 34.0, legend_y + 4.0, "font-size=\"12\" fill=\"#333\"", line->name);
 }
 
-static void draw_page(FILE *file, const chart_t *chart)
+void chart_draw(FILE *file, const chart_t *chart)
 {
     svg_begin(file, page_width, page_height);
     svg_rectangle(file, 0.0, 0.0, page_width, page_height, "fill=\"#ffffff\"");
@@ -112,6 +112,7 @@ bool chart_write(const chart_t *chart, const char *path, failure_t *failure)
     if (!output_open(&file, path, failure)) {
         return false;
     }
-    draw_page(file, chart);
+    svg_head(file);
+    chart_draw(file, chart);
     return output_close(file, path, failure);
 }

@@ -12,6 +12,7 @@
 #define INSOLE_HOST_PLOT_CHART_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #include "failure.h"
 
@@ -37,6 +38,9 @@ typedef struct {
 void chart_add(chart_line_t *line, double x, double y);
 
 void chart_free(chart_line_t *line);
+
+/** The picture alone, for a page of its own. */
+void chart_draw(FILE *file, const chart_t *chart);
 
 /** @param path a file, or `-` for standard output */
 bool chart_write(const chart_t *chart, const char *path, failure_t *failure);

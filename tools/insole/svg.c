@@ -9,12 +9,16 @@ static void write_attribute(FILE *file, const char *name, double value)
     fprintf(file, " %s=\"%s\"", name, number_fixed(number, value, 2));
 }
 
+void svg_head(FILE *file)
+{
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", file);
+}
+
 void svg_begin(FILE *file, double width, double height)
 {
     char w[NUMBER_ROOM], h[NUMBER_ROOM];
     number_fixed(w, width, 0);
     number_fixed(h, height, 0);
-    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", file);
     fprintf(file,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%s\" height=\"%s\" "
             "viewBox=\"0 0 %s %s\" font-family=\"Helvetica, Arial, sans-serif\">\n",
@@ -67,7 +71,7 @@ void svg_ellipse(FILE *file, double x, double y, double radius_x, double radius_
 }
 
 /* XML has no way to write most control characters. */
-static void write_escaped(FILE *file, const char *text)
+void svg_escape(FILE *file, const char *text)
 {
     for (; *text != '\0'; text++) {
         unsigned char c = (unsigned char)*text;
@@ -87,7 +91,7 @@ void svg_text(FILE *file, double x, double y, const char *style, const char *tex
     write_attribute(file, "x", x);
     write_attribute(file, "y", y);
     fprintf(file, " %s>", style);
-    write_escaped(file, text);
+    svg_escape(file, text);
     fputs("</text>\n", file);
 }
 

@@ -1,5 +1,6 @@
 /** @file svg.h  SVG elements, written as they are told. Coordinates in pixels, y down.
  *
+ *      svg_head(file);
  *      svg_begin(file, 800.0, 600.0);
  *      svg_circle(file, 100.0, 50.0, 4.0, "fill=\"#1b7837\"");
  *      svg_text(file, 10.0, 20.0, "font-size=\"12\"", "x & y");
@@ -14,6 +15,9 @@
 
 #include <stdio.h>
 
+/** Before the picture, where it is a file of its own. */
+void svg_head(FILE *file);
+
 void svg_begin(FILE *file, double width, double height);
 void svg_end(FILE *file);
 
@@ -26,6 +30,9 @@ void svg_ellipse(FILE *file, double x, double y, double radius_x, double radius_
                  const char *style);
 
 void svg_text(FILE *file, double x, double y, const char *style, const char *text);
+
+/** Text as XML and HTML take it. */
+void svg_escape(FILE *file, const char *text);
 
 /** A line of many points: begin, point by point, end. */
 void svg_path_begin(FILE *file, const char *style);
