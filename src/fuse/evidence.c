@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/evidence.h"
 
+#include <string.h>
+
 #include <stddef.h>
 
 #define ZERO         INSOLE_R(0.0)
@@ -19,9 +21,8 @@
 
 void insole_evidence_clear(insole_evidence_t *evidence)
 {
-    static const insole_evidence_t blank;
     if (evidence) {
-        *evidence = blank;
+        memset(evidence, 0, sizeof *evidence);
     }
 }
 

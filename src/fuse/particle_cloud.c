@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/particle_cloud.h"
 
+#include <string.h>
+
 #include <stddef.h>
 
 #define ZERO INSOLE_R(0.0)
@@ -24,8 +26,7 @@ static insole_real_t weight_of(const insole_particle_t *particle, insole_real_t 
 
 void insole_cloud_sum_begin(insole_cloud_sum_t *sum, const insole_cloud_t *cloud, uint32_t heaviest)
 {
-    static const insole_cloud_sum_t blank;
-    *sum = blank;
+    memset(sum, 0, sizeof *sum);
     sum->reference = cloud->particles[heaviest];
 }
 
@@ -90,8 +91,7 @@ insole_status_t insole_cloud_fix(const insole_cloud_sum_t *sum, insole_cloud_fix
 void insole_cloud_resample_begin(insole_cloud_comb_t *comb, const insole_cloud_sum_t *sum,
                                  uint32_t count, insole_real_t shift)
 {
-    static const insole_cloud_comb_t blank;
-    *comb = blank;
+    memset(comb, 0, sizeof *comb);
     comb->counting = true;
     comb->heaviest = sum->reference.log_weight;
     comb->per_tooth = (insole_real_t)count / sum->weight;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/step_fusion.h"
 
+#include <string.h>
+
 #include <stddef.h>
 
 #define ZERO INSOLE_R(0.0)
@@ -27,8 +29,7 @@ insole_status_t insole_step_fusion_init(insole_step_fusion_t *fusion,
     if (!(true INSOLE_STEP_FUSION_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_step_fusion_t blank;
-    *fusion = blank;
+    memset(fusion, 0, sizeof *fusion);
     fusion->config = *config;
     return INSOLE_OK;
 }

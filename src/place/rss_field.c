@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/place/rss_field.h"
 
+#include <string.h>
+
 #include <stddef.h>
 
 #define ZERO INSOLE_R(0.0)
@@ -197,9 +199,8 @@ insole_status_t insole_rss_field_place(insole_rss_field_t *field, const insole_r
     field->next_node = 0;
     field->next_heard = 0;
     field->placed = true;
-    static const insole_rss_node_t blank;
     for (uint32_t n = 0; n <= NODES; n++) {
-        field->node[n] = blank;
+        memset(&field->node[n], 0, sizeof field->node[n]);
     }
     field->node[NODES].needed = field->points_elsewhere;
     insole_rss_field_need(field, around->x_m, around->y_m);

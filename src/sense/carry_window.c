@@ -30,7 +30,7 @@ insole_status_t insole_carry_window_init(insole_carry_window_t *window, insole_r
     if (!(gravity_s >= INSOLE_R(0.05) && gravity_s <= INSOLE_R(100.0))) {
         return INSOLE_ERR_VALUE;
     }
-    memset(window, 0, sizeof *window); /* a blank one to copy would take 2 KB of flash */
+    memset(window, 0, sizeof *window);
     window->gravity_s = gravity_s;
     return INSOLE_OK;
 }

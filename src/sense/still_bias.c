@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/sense/still_bias.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 
 /* A block with an interval longer than this is thrown away. */
@@ -21,8 +23,7 @@ insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
     if (!(true INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_still_bias_t blank;
-    *rest = blank;
+    memset(rest, 0, sizeof *rest);
     rest->config = *config;
     rest->gravity_mps2 = config->gravity_mps2;
     insole_real_t variance = insole_square(config->sigma_bias_radps);
@@ -37,8 +38,7 @@ static insole_vec3_t squares(insole_vec3_t v)
 
 static void block_begin(insole_still_block_t *block, const insole_imu_t *imu)
 {
-    static const insole_still_block_t blank;
-    *block = blank;
+    memset(block, 0, sizeof *block);
     block->begin_us = imu->t_us;
     block->accel0_mps2 = imu->accel_mps2;
     block->gyro0_radps = imu->gyro_radps;

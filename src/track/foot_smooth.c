@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/foot_smooth.h"
 
+#include <string.h>
+
 #include "insole/base/fastmath.h"
 
 insole_status_t insole_foot_smooth_init(insole_foot_smooth_t *smooth, insole_zupt_node_t *nodes,
@@ -12,8 +14,7 @@ insole_status_t insole_foot_smooth_init(insole_foot_smooth_t *smooth, insole_zup
     insole_zupt_smooth_t history;
     insole_status_t status = insole_zupt_smooth_init(&history, nodes, count);
     if (status == INSOLE_OK) {
-        static const insole_foot_smooth_t blank;
-        *smooth = blank;
+        memset(smooth, 0, sizeof *smooth);
         smooth->history = history;
         smooth->fixes = fixes;
         smooth->ring = insole_ring(count);
