@@ -26,7 +26,7 @@ class Budgets:
         self.rows = {(row["what"], row["name"]): int(row["limit"]) for row in table(path)}
 
     def problems(self, what, name, value):
-        limit = self.rows.get((what, name), self.rows[(what, "*")])
+        limit = self.rows[(what, name if (what, name) in self.rows else "*")]
         return [f"{what} of {name}: {value} bytes, at most {limit}"] if value > limit else []
 
 

@@ -93,11 +93,15 @@ def indirect_calls(path):
     return {row["caller"]: row["callees"].split() for row in arm.table(path)}
 
 
+def depths_of(graph, here=HERE):
+    outside = {row["symbol"]: int(row["stack_bytes"]) for row in arm.table(here / "arm_symbols.csv")}
+    return Depths(graph, outside, indirect_calls(here / "indirect_calls.csv"))
+
+
 def check(build, here=HERE):
     """(problems, table of the public functions, deepest first)"""
     graph = CallGraph(build)
-    outside = {row["symbol"]: int(row["stack_bytes"]) for row in arm.table(here / "arm_symbols.csv")}
-    depths = Depths(graph, outside, indirect_calls(here / "indirect_calls.csv"))
+    depths = depths_of(graph, here)
     public = {name: depths.depth(name) for name in sorted(graph.frames) if ":" not in name}
     problems = graph.problems + depths.problems
     if not public:

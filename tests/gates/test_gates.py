@@ -10,6 +10,7 @@ import arm
 import common
 import includes
 import ledger
+import paths
 import sizes
 import stack
 import style
@@ -378,6 +379,25 @@ class CortexM(Scratch):
     def test_variables_of_the_library_are_found(self):
         self.assert_refused(self.size_problems("int counter;\n", ram=20)[0],
                             "4 bytes of variables")
+
+
+class Paths(unittest.TestCase):
+    COSTS = {"inertial": (1000, 200, 30), "foot": (2000, 300, 40), "phone": (3000, 400, 50)}
+
+    def test_the_table_is_put_between_the_marks(self):
+        text = f"before\n{paths.BEGIN}\nold\n{paths.END}\nafter\n"
+        fresh = paths.with_table(text, self.COSTS)
+        self.assertTrue(fresh.startswith("before\n") and fresh.endswith("\nafter\n"))
+        self.assertIn("| inertial filter alone | 1,000 | 200 | 30 |", fresh)
+        self.assertNotIn("old", fresh)
+        self.assertEqual(paths.with_table(fresh, self.COSTS), fresh)
+
+    def test_every_path_has_its_limits(self):
+        budgets = arm.Budgets(paths.HERE / "budgets.csv")
+        for name in paths.TITLES:
+            for what in ("path_flash", "path_ram", "path_stack"):
+                self.assertEqual(budgets.problems(what, name, 100), [])
+                self.assertEqual(len(budgets.problems(what, name, 10 ** 6)), 1)
 
 
 class Tools(Scratch):
