@@ -21,10 +21,13 @@ insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad)
     insole_real_t half2 = INSOLE_R(0.25) * insole_vec3_norm2(rotation_rad);
     insole_real_t c, s; /* cos(half), sin(half) / (2 half) */
     if (half2 < INSOLE_R(0.01)) {
-        /* what these series leave out is below the last bit even of a double */
+        /* what these series leave out is below the last bit, and with two more terms of a double */
         const insole_real_t one = INSOLE_R(1.0), z = half2;
-        c = one - z * SHARE(30.0) * (one - z * SHARE(56.0));
-        s = one - z * SHARE(42.0) * (one - z * SHARE(72.0));
+        c = s = one;
+        if (INSOLE_REAL_EPSILON < INSOLE_R(1.0e-10)) {
+            c = one - z * SHARE(30.0) * (one - z * SHARE(56.0));
+            s = one - z * SHARE(42.0) * (one - z * SHARE(72.0));
+        }
         c = one - z * SHARE(2.0) * (one - z * SHARE(12.0) * c);
         s = SHARE(2.0) * (one - z * SHARE(6.0) * (one - z * SHARE(20.0) * s));
     } else {

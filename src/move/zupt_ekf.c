@@ -5,6 +5,7 @@
 
 #define ZERO    INSOLE_R(0.0)
 #define TWELFTH (INSOLE_R(1.0) / INSOLE_R(12.0))
+#define SIXTH   (INSOLE_R(1.0) / INSOLE_R(6.0))
 
 /* Long enough that a block of yaw noise is not lost to rounding beside a day's yaw variance, short
  * enough that noise of a swing still turns into velocity within the swing. */
@@ -17,7 +18,7 @@ static const uint32_t LONGEST_STEP_US = 1000000u;
 static const insole_real_t ZUPT_INTERVAL_S = INSOLE_R(0.005);
 
 /* No foot and no building goes beyond; within, a day of nonsense stays finite. */
-static const insole_real_t MOST_ACCEL_MPS2 = INSOLE_R(1.0e4), MOST_GYRO_RADPS = INSOLE_R(1.0e3);
+static const insole_real_t MOST_ACCEL_MPS2 = INSOLE_R(1.5e4), MOST_GYRO_RADPS = INSOLE_R(1.5e3);
 static const insole_real_t MOST_SPEED_MPS = INSOLE_R(1.0e3), MOST_HEIGHT_M = INSOLE_R(1.0e6);
 static const insole_real_t LEAST_SIGMA_M = INSOLE_R(1.0e-4), MOST_SIGMA_M = INSOLE_R(1.0e4);
 
@@ -37,7 +38,13 @@ static bool has_bias(const insole_zupt_ekf_t *ekf)
 
 static bool is_within(insole_vec3_t v, insole_real_t limit)
 {
-    return insole_vec3_is_finite(v) && insole_vec3_max_abs(v) <= limit;
+    return insole_abs(v.x) <= limit && insole_abs(v.y) <= limit && insole_abs(v.z) <= limit;
+}
+
+/* Not true of what is no number. */
+static bool is_shorter(insole_vec3_t v, insole_real_t limit)
+{
+    return insole_vec3_norm2(v) <= insole_square(limit);
 }
 
 static void begin_trace(insole_zupt_ekf_t *ekf, insole_zupt_step_t step)
@@ -103,84 +110,108 @@ insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf, insole_vec3_t mean
 }
 
 /* What the sensor felt over the interval. A sample lies between the mean of its interval and the
- * value at its end, where the mean would be half way to the sample before. */
-static insole_vec3_t over_interval(const insole_zupt_ekf_t *ekf, insole_vec3_t now,
-                                   insole_vec3_t before)
+ * value at its end, where the mean would be half way `back` to the sample before. */
+static insole_vec3_t part_way(insole_vec3_t now, insole_real_t part, insole_vec3_t back)
 {
-    insole_vec3_t back = insole_vec3_sub(before, now);
-    return insole_vec3_add_scaled(now, INSOLE_R(0.5) * ekf->config.point_share, back);
+    return insole_vec3_add_scaled(now, part, back);
 }
 
 /* With the coning term of two samples, whose rate grows evenly: d = w dt + (w_prev x w) dt^2 / 12,
  * in the first term the mean over the interval, in the second the samples as they are. */
-static insole_vec3_t turn(insole_zupt_ekf_t *ekf, insole_vec3_t gyro, insole_real_t dt)
+static void turn(insole_zupt_ekf_t *ekf, insole_vec3_t gyro, insole_vec3_t back, insole_real_t part,
+                 insole_real_t dt)
 {
-    insole_vec3_t mean = over_interval(ekf, gyro, ekf->last_gyro_radps);
-    insole_vec3_t coning = insole_vec3_cross(ekf->last_gyro_radps, gyro);
-    insole_vec3_t d =
-        insole_vec3_add_scaled(insole_vec3_scale(mean, dt), dt * dt * TWELFTH, coning);
-    insole_quat_t dq = insole_quat_from_rotvec(d);               /* [TwoOrder (12)-(13)] */
-    ekf->q = insole_quat_normalize(insole_quat_mul(ekf->q, dq)); /* [TwoOrder (14)] */
+    insole_vec3_t coning = insole_vec3_cross(back, gyro);
+    insole_vec3_t mean = part_way(gyro, part, back);
+    insole_vec3_t d = insole_vec3_scale(insole_vec3_add_scaled(mean, dt * TWELFTH, coning), dt);
+    insole_quat_t dq = insole_quat_from_rotvec(d); /* [TwoOrder (12)-(13)] */
+    ekf->q = insole_quat_mul(ekf->q, dq);          /* [TwoOrder (14)] */
     ekf->C = insole_quat_to_mat3(ekf->q);
-    return d;
 }
 
 /* Mean specific force of the interval, seen from the attitude at its end: half the rotation is
- * taken back, and the sculling term of two samples added. */
-static insole_vec3_t mean_force(const insole_zupt_ekf_t *ekf, insole_vec3_t accel,
-                                insole_vec3_t gyro, insole_vec3_t d, insole_real_t dt)
+ * taken back, m x w dt / 2, and the sculling term of two samples added, (w_prev x a + a_prev x w)
+ * dt / 12. Written with the differences `back` to the samples before, and but for a share of their
+ * own product, both are one product. */
+static insole_vec3_t mean_force(insole_vec3_t accel, insole_vec3_t back_accel, insole_vec3_t gyro,
+                                insole_vec3_t back_gyro, insole_real_t part, insole_real_t dt)
 {
-    insole_vec3_t sculling = insole_vec3_add(insole_vec3_cross(ekf->last_gyro_radps, accel),
-                                             insole_vec3_cross(ekf->last_accel_mps2, gyro));
-    insole_vec3_t mean = over_interval(ekf, accel, ekf->last_accel_mps2);
-    insole_vec3_t back = insole_vec3_cross(mean, d);
-    insole_vec3_t s = insole_vec3_add_scaled(mean, INSOLE_R(0.5), back);
-    return insole_vec3_add_scaled(s, dt * TWELFTH, sculling);
+    insole_vec3_t a = part_way(accel, part + SIXTH, back_accel);
+    insole_vec3_t w = part_way(gyro, part - SIXTH, back_gyro);
+    insole_vec3_t mean = part_way(accel, part, back_accel);
+    return insole_vec3_add_scaled(mean, INSOLE_R(0.5) * dt, insole_vec3_cross(a, w));
 }
 
-/* Velocity and position, [TwoOrder (16)-(17)]. */
-static void move(insole_zupt_ekf_t *ekf, insole_real_t dt)
+/* Velocity and position, [TwoOrder (16)-(17)]; u: what the specific force adds to the velocity. */
+static void move(insole_zupt_ekf_t *ekf, insole_vec3_t u, insole_real_t dt)
 {
-    insole_vec3_t a = ekf->force_mps2;
-    a.z -= ekf->gravity_mps2;
-    ekf->p_m = insole_vec3_add_scaled(insole_vec3_add_scaled(ekf->p_m, dt, ekf->v_mps),
-                                      INSOLE_R(0.5) * dt * dt, a);
-    ekf->v_mps = insole_vec3_add_scaled(ekf->v_mps, dt, a);
+    u.z -= ekf->gravity_mps2 * dt;
+    insole_vec3_t middle = insole_vec3_add_scaled(ekf->v_mps, INSOLE_R(0.5), u);
+    ekf->p_m = insole_vec3_add_scaled(ekf->p_m, dt, middle);
+    ekf->v_mps = insole_vec3_add(ekf->v_mps, u);
 }
 
-/* Q of table 1, put aside until a block is full. */
+/* Mechanisation. @return specific force in n times dt */
+static insole_vec3_t mechanise(insole_zupt_ekf_t *ekf, insole_vec3_t accel, insole_vec3_t gyro,
+                               insole_real_t dt)
+{
+    insole_real_t part = INSOLE_R(0.5) * ekf->config.point_share;
+    insole_vec3_t back_accel = insole_vec3_sub(ekf->last_accel_mps2, accel);
+    insole_vec3_t back_gyro = insole_vec3_sub(ekf->last_gyro_radps, gyro);
+    insole_vec3_t force = mean_force(accel, back_accel, gyro, back_gyro, part, dt);
+    turn(ekf, gyro, back_gyro, part, dt);
+    ekf->force_mps2 = insole_mat3_mul_vec(ekf->C, force);
+    ekf->last_accel_mps2 = accel;
+    ekf->last_gyro_radps = gyro;
+    insole_vec3_t u = insole_vec3_scale(ekf->force_mps2, dt);
+    move(ekf, u, dt);
+    return u;
+}
+
+static void gather_clip_noise(insole_zupt_ekf_t *ekf, uint32_t clipped)
+{
+    insole_mat3_t axes = insole_mat3_transpose(ekf->C);
+    const insole_vec3_t *axis[3] = {&axes.r0, &axes.r1, &axes.r2};
+    insole_real_t var = insole_square(ekf->config.clip_noise_rad_rts) * ekf->dt_s;
+    for (uint32_t m = 0u; m < 3u; m++) {
+        ekf->noise.clip_rad2 = insole_sym3_add_outer(
+            ekf->noise.clip_rad2, (clipped >> m & 1u) != 0u ? var : ZERO, *axis[m]);
+    }
+}
+
+/* What Q of table 1 grows with, put aside until a block is full. */
 static void gather_noise(insole_zupt_ekf_t *ekf, insole_vec3_t gyro, uint32_t clipped)
 {
-    const insole_zupt_ekf_config_t *c = &ekf->config;
-    insole_zupt_noise_t *noise = &ekf->noise;
-    insole_real_t dt = ekf->dt_s;
-    insole_real_t turning = insole_square(c->gyro_turn_noise_rts) * insole_vec3_norm2(gyro);
-    insole_real_t attitude = (insole_square(c->gyro_noise_rad_rts) + turning) * dt;
-    noise->velocity_m2ps2 += insole_square(c->accel_noise_mps_rts) * dt;
-    noise->attitude_rad2 = insole_sym3_add_diagonal(noise->attitude_rad2, attitude);
-    noise->bias_m2ps4 += insole_square(c->accel_bias_walk_mps2_rts) * dt;
+    ekf->noise.time_s += ekf->dt_s;
+    ekf->noise.turned_rad2ps += insole_vec3_norm2(gyro) * ekf->dt_s;
     if (clipped != 0u) {
-        insole_mat3_t axes = insole_mat3_transpose(ekf->C);
-        const insole_vec3_t *axis[3] = {&axes.r0, &axes.r1, &axes.r2};
-        for (uint32_t m = 0u; m < 3u; m++) {
-            insole_real_t on = (clipped >> m & 1u) != 0u ? INSOLE_R(1.0) : ZERO;
-            noise->attitude_rad2 = insole_sym3_add_outer(
-                noise->attitude_rad2, on * insole_square(c->clip_noise_rad_rts) * dt, *axis[m]);
-        }
+        gather_clip_noise(ekf, clipped);
     }
-    noise->samples++;
+    ekf->noise.samples++;
 }
 
 static void add_noise(insole_zupt_ekf_t *ekf)
 {
     static const insole_zupt_noise_t none;
-    insole_zupt_noise_t *noise = &ekf->noise;
-    ekf->P.vv = insole_sym3_add_diagonal(ekf->P.vv, noise->velocity_m2ps2);
-    ekf->P.aa = insole_sym3_add(ekf->P.aa, noise->attitude_rad2);
+    const insole_zupt_ekf_config_t *c = &ekf->config;
+    const insole_zupt_noise_t *noise = &ekf->noise;
+    insole_real_t attitude = insole_square(c->gyro_noise_rad_rts) * noise->time_s +
+                             insole_square(c->gyro_turn_noise_rts) * noise->turned_rad2ps;
+    insole_real_t velocity = insole_square(c->accel_noise_mps_rts) * noise->time_s;
+    ekf->P.vv = insole_sym3_add_diagonal(ekf->P.vv, velocity);
+    ekf->P.aa = insole_sym3_add_diagonal(insole_sym3_add(ekf->P.aa, noise->clip_rad2), attitude);
     if (has_bias(ekf)) {
-        ekf->P.bb = insole_sym3_add_diagonal(ekf->P.bb, noise->bias_m2ps4);
+        insole_real_t bias = insole_square(c->accel_bias_walk_mps2_rts) * noise->time_s;
+        ekf->P.bb = insole_sym3_add_diagonal(ekf->P.bb, bias);
     }
-    *noise = none;
+    ekf->noise = none;
+}
+
+/* Rounding has had no time to be seen in the quaternion's length. */
+static void end_block(insole_zupt_ekf_t *ekf)
+{
+    add_noise(ekf);
+    ekf->q = insole_quat_normalize(ekf->q);
 }
 
 insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu_t *imu,
@@ -195,25 +226,19 @@ insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu
     if (imu->t_us <= ekf->t_us) {
         return refuse(ekf, INSOLE_ERR_TIME);
     }
-    if (imu->t_us - ekf->t_us > LONGEST_STEP_US || !is_within(imu->accel_mps2, MOST_ACCEL_MPS2) ||
-        !is_within(imu->gyro_radps, MOST_GYRO_RADPS)) {
+    if (imu->t_us - ekf->t_us > LONGEST_STEP_US || !is_shorter(imu->accel_mps2, MOST_ACCEL_MPS2) ||
+        !is_shorter(imu->gyro_radps, MOST_GYRO_RADPS)) {
         return refuse(ekf, INSOLE_ERR_VALUE);
     }
     insole_real_t dt = (insole_real_t)(uint32_t)(imu->t_us - ekf->t_us) * INSOLE_R(1.0e-6);
     insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, ekf->accel_bias_mps2);
-    insole_vec3_t d = turn(ekf, imu->gyro_radps, dt);
-    insole_vec3_t force = mean_force(ekf, accel, imu->gyro_radps, d, dt);
-    ekf->force_mps2 = insole_mat3_mul_vec(ekf->C, force);
-    move(ekf, dt);
-    insole_vec3_t u = insole_vec3_scale(ekf->force_mps2, dt);
+    insole_vec3_t u = mechanise(ekf, accel, imu->gyro_radps, dt);
     insole_zupt_cov_propagate(&ekf->P, u, &ekf->C, dt, has_bias(ekf));
     ekf->dt_s = dt;
     ekf->t_us = imu->t_us;
-    ekf->last_accel_mps2 = accel;
-    ekf->last_gyro_radps = imu->gyro_radps;
     gather_noise(ekf, imu->gyro_radps, clipped);
     if (ekf->noise.samples >= NOISE_BLOCK) {
-        add_noise(ekf);
+        end_block(ekf);
     }
     begin_trace(ekf, INSOLE_ZUPT_STEP_PREDICT);
     return INSOLE_OK;
@@ -258,12 +283,10 @@ insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *n
     ekf->trace.velocity_mps = rolling_velocity(ekf);
     ekf->trace.velocity_var_m2ps2 = r;
     insole_vec3_t z = insole_vec3_sub(ekf->trace.velocity_mps, ekf->v_mps);
-    insole_vec3_t w = insole_sym3_mul_vec(W, z); /* S^-1 z */
-    insole_zupt_error_t dx = insole_zupt_cov_of_velocity(&ekf->P, w);
-    insole_zupt_cov_correct_velocity(&ekf->P, W, r, has_bias(ekf));
+    insole_zupt_error_t dx = insole_zupt_cov_correct_velocity(&ekf->P, W, r, z, has_bias(ekf));
     inject(ekf, &dx);
     if (nis) {
-        *nis = insole_vec3_dot(z, w);
+        *nis = insole_vec3_dot(z, insole_sym3_mul_vec(W, z)); /* z' S^-1 z */
     }
     return INSOLE_OK;
 }

@@ -28,6 +28,7 @@ typedef struct {
     void (*begin)(void);            /**< sets the state up, not counted; NULL: nothing to do */
     void (*prepare)(uint32_t call); /**< makes the arguments, not counted; NULL: nothing to do */
     void (*call)(uint32_t call);    /**< counted */
+    void (*take)(void);             /**< puts the results out, not counted; NULL: the call does */
 } bench_case_t;
 
 typedef struct {
@@ -58,6 +59,9 @@ void bench_take_quat(uint32_t at, insole_quat_t q);
 /* What differs between the machines. */
 
 void bench_write(const char *text);
+
+/** Whether this case is to be run. */
+bool bench_is_wanted(const char *name);
 
 /** Makes the counter ready. @return false when it does not count what it should */
 bool bench_counter_start(void);

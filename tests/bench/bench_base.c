@@ -158,20 +158,20 @@ static void call_insole_crc32_256_bytes(uint32_t call)
 }
 
 static const bench_case_t cases[] = {
-    {"insole_sin", 256u, NULL, make_angle, call_insole_sin},
-    {"insole_cos", 256u, NULL, make_angle, call_insole_cos},
-    {"insole_atan2", 256u, NULL, make_point, call_insole_atan2},
-    {"insole_exp", 256u, NULL, make_angle, call_insole_exp},
-    {"insole_log", 256u, NULL, make_positive, call_insole_log},
-    {"insole_wrap_pi", 256u, NULL, make_angle, call_insole_wrap_pi},
-    {"insole_quat_from_rotvec", 256u, NULL, make_rotation, call_insole_quat_from_rotvec},
-    {"insole_quat_normalize", 256u, NULL, make_quats, call_insole_quat_normalize},
-    {"insole_quat_mul", 256u, NULL, make_quats, call_insole_quat_mul},
-    {"insole_quat_rotate", 256u, NULL, make_quats, call_insole_quat_rotate},
-    {"insole_mat3_mul", 256u, NULL, make_matrices_and_take, call_insole_mat3_mul},
-    {"insole_sym3_inverse", 256u, NULL, make_matrices_and_take, call_insole_sym3_inverse},
-    {"insole_rng_normal", 256u, NULL, NULL, call_insole_rng_normal},
-    {"insole_crc32_256_bytes", 256u, NULL, NULL, call_insole_crc32_256_bytes},
+    {"insole_sin", 256u, NULL, make_angle, call_insole_sin, NULL},
+    {"insole_cos", 256u, NULL, make_angle, call_insole_cos, NULL},
+    {"insole_atan2", 256u, NULL, make_point, call_insole_atan2, NULL},
+    {"insole_exp", 256u, NULL, make_angle, call_insole_exp, NULL},
+    {"insole_log", 256u, NULL, make_positive, call_insole_log, NULL},
+    {"insole_wrap_pi", 256u, NULL, make_angle, call_insole_wrap_pi, NULL},
+    {"insole_quat_from_rotvec", 256u, NULL, make_rotation, call_insole_quat_from_rotvec, NULL},
+    {"insole_quat_normalize", 256u, NULL, make_quats, call_insole_quat_normalize, NULL},
+    {"insole_quat_mul", 256u, NULL, make_quats, call_insole_quat_mul, NULL},
+    {"insole_quat_rotate", 256u, NULL, make_quats, call_insole_quat_rotate, NULL},
+    {"insole_mat3_mul", 256u, NULL, make_matrices_and_take, call_insole_mat3_mul, NULL},
+    {"insole_sym3_inverse", 256u, NULL, make_matrices_and_take, call_insole_sym3_inverse, NULL},
+    {"insole_rng_normal", 256u, NULL, NULL, call_insole_rng_normal, NULL},
+    {"insole_crc32_256_bytes", 256u, NULL, NULL, call_insole_crc32_256_bytes, NULL},
 };
 
 const bench_table_t bench_base = BENCH_TABLE(cases);

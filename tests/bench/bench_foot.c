@@ -125,42 +125,33 @@ static void take_ekf(void)
     bench_take_vec3(7u, ekf.P.pv.r1);
 }
 
-static void predict(uint32_t call)
+static void call_insole_zupt_ekf_predict_9(uint32_t call)
 {
     (void)call;
     insole_zupt_ekf_predict(&ekf, &imu, 0u);
 }
 
-static void call_insole_zupt_ekf_predict_9(uint32_t call)
-{
-    predict(call);
-    take_ekf();
-}
-
 static void call_insole_zupt_ekf_predict_12(uint32_t call)
 {
-    predict(call);
-    take_ekf();
+    call_insole_zupt_ekf_predict_9(call);
 }
 
 static void make_sample_and_predict(uint32_t call)
 {
     make_sample(call);
-    predict(call);
+    call_insole_zupt_ekf_predict_9(call);
 }
 
 static void call_insole_zupt_ekf_correct_9(uint32_t call)
 {
     (void)call;
-    insole_zupt_ekf_correct(&ekf, &bench_result[15]);
-    take_ekf();
+    insole_zupt_ekf_correct(&ekf, NULL);
 }
 
 static void call_insole_zupt_ekf_correct_12(uint32_t call)
 {
     (void)call;
-    insole_zupt_ekf_correct(&ekf, &bench_result[15]);
-    take_ekf();
+    insole_zupt_ekf_correct(&ekf, NULL);
 }
 
 static insole_foot_tracker_t shoe;
@@ -184,24 +175,24 @@ static void call_insole_foot_tracker_imu_next(uint32_t call)
     (void)call;
     insole_foot_tracker_imu(&shoe, &imu);
     while (insole_foot_tracker_next(&shoe, &fix) == INSOLE_OK) {
-        take_fix();
     }
 }
 
 static const bench_case_t cases[] = {
-    {"insole_screen_push", WALK, begin_screen, make_sample, call_insole_screen_push},
-    {"insole_still_bias_push", WALK, begin_rest, make_sample, call_insole_still_bias_push},
+    {"insole_screen_push", WALK, begin_screen, make_sample, call_insole_screen_push, NULL},
+    {"insole_still_bias_push", WALK, begin_rest, make_sample, call_insole_still_bias_push, NULL},
     {"insole_zero_velocity_push_next", WALK, begin_stance, make_sample,
-     call_insole_zero_velocity_push_next},
-    {"insole_zupt_ekf_predict_9", WALK, begin_nine, make_sample, call_insole_zupt_ekf_predict_9},
-    {"insole_zupt_ekf_predict_12", WALK, begin_twelve, make_sample,
-     call_insole_zupt_ekf_predict_12},
+     call_insole_zero_velocity_push_next, NULL},
+    {"insole_zupt_ekf_predict_9", WALK, begin_nine, make_sample, call_insole_zupt_ekf_predict_9,
+     take_ekf},
+    {"insole_zupt_ekf_predict_12", WALK, begin_twelve, make_sample, call_insole_zupt_ekf_predict_12,
+     take_ekf},
     {"insole_zupt_ekf_correct_9", REST, begin_nine, make_sample_and_predict,
-     call_insole_zupt_ekf_correct_9},
+     call_insole_zupt_ekf_correct_9, take_ekf},
     {"insole_zupt_ekf_correct_12", REST, begin_twelve, make_sample_and_predict,
-     call_insole_zupt_ekf_correct_12},
+     call_insole_zupt_ekf_correct_12, take_ekf},
     {"insole_foot_tracker_imu_next", WALK, begin_shoe, make_sample,
-     call_insole_foot_tracker_imu_next},
+     call_insole_foot_tracker_imu_next, take_fix},
 };
 
 const bench_table_t bench_foot = BENCH_TABLE(cases);

@@ -292,17 +292,17 @@ static void call_insole_particle_filter_two_order_10000(uint32_t call)
 
 static const bench_case_t cases[] = {
     {"insole_particle_filter_100", STRIDES, begin_small, make_stride,
-     call_insole_particle_filter_100},
+     call_insole_particle_filter_100, NULL},
     {"insole_particle_filter_1000", STRIDES, begin_usual, make_stride,
-     call_insole_particle_filter_1000},
+     call_insole_particle_filter_1000, NULL},
     {"insole_particle_filter_10000", STRIDES, begin_huge, make_stride,
-     call_insole_particle_filter_10000},
+     call_insole_particle_filter_10000, NULL},
     {"insole_particle_filter_two_order_100", STRIDES, begin_small_two_order, make_stride,
-     call_insole_particle_filter_two_order_100},
+     call_insole_particle_filter_two_order_100, NULL},
     {"insole_particle_filter_two_order_1000", STRIDES, begin_usual_two_order, make_stride,
-     call_insole_particle_filter_two_order_1000},
+     call_insole_particle_filter_two_order_1000, NULL},
     {"insole_particle_filter_two_order_10000", STRIDES, begin_huge_two_order, make_stride,
-     call_insole_particle_filter_two_order_10000},
+     call_insole_particle_filter_two_order_10000, NULL},
 };
 
 const bench_table_t bench_fuse = BENCH_TABLE(cases);

@@ -34,6 +34,10 @@ static void begin_phone(void)
 static void push(insole_attitude_method_t *method)
 {
     insole_attitude_push(&phone, method, &imu, 0u);
+}
+
+static void take_attitude(void)
+{
     bench_take_quat(0u, phone.q);
     bench_take_vec3(4u, insole_vec3(phone.P.xx, phone.P.yy, phone.P.zz));
 }
@@ -375,31 +379,37 @@ static void call_insole_auto_start_circles(uint32_t call)
 }
 
 static const bench_case_t cases[] = {
-    {"insole_attitude_push_gyro", WALK, begin_phone, make_sample, call_insole_attitude_push_gyro},
-    {"insole_attitude_push_ekf", WALK, begin_phone, make_sample, call_insole_attitude_push_ekf},
-    {"insole_attitude_push_ukf", WALK, begin_phone, make_sample, call_insole_attitude_push_ukf},
-    {"insole_heading", WALK, begin_phone, make_attitude, call_insole_heading},
+    {"insole_attitude_push_gyro", WALK, begin_phone, make_sample, call_insole_attitude_push_gyro,
+     take_attitude},
+    {"insole_attitude_push_ekf", WALK, begin_phone, make_sample, call_insole_attitude_push_ekf,
+     take_attitude},
+    {"insole_attitude_push_ukf", WALK, begin_phone, make_sample, call_insole_attitude_push_ukf,
+     take_attitude},
+    {"insole_heading", WALK, begin_phone, make_attitude, call_insole_heading, NULL},
     {"insole_walk_heading_push", WALK, begin_walk_heading, make_sample,
-     call_insole_walk_heading_push},
-    {"insole_walk_heading_step", 40u, begin_walk_heading, make_step, call_insole_walk_heading_step},
-    {"insole_carry_push", WALK, begin_carry, make_sample, call_insole_carry_push},
-    {"insole_carry_next", 20u, begin_carry, make_window, call_insole_carry_next},
-    {"insole_carry_forest_vote", 20u, begin_carry, make_features, call_insole_carry_forest_vote},
-    {"insole_step_fusion_step_ekf", 200u, begin_fusion, make_news,
-     call_insole_step_fusion_step_ekf},
-    {"insole_step_fusion_step_ukf", 200u, begin_fusion, make_news,
-     call_insole_step_fusion_step_ukf},
-    {"insole_step_fusion_fix", 200u, begin_fusion, make_news, call_insole_step_fusion_fix},
-    {"insole_ml_shift_fix", 200u, begin_ml_shift, make_news, call_insole_ml_shift_fix},
+     call_insole_walk_heading_push, NULL},
+    {"insole_walk_heading_step", 40u, begin_walk_heading, make_step, call_insole_walk_heading_step,
+     NULL},
+    {"insole_carry_push", WALK, begin_carry, make_sample, call_insole_carry_push, NULL},
+    {"insole_carry_next", 20u, begin_carry, make_window, call_insole_carry_next, NULL},
+    {"insole_carry_forest_vote", 20u, begin_carry, make_features, call_insole_carry_forest_vote,
+     NULL},
+    {"insole_step_fusion_step_ekf", 200u, begin_fusion, make_news, call_insole_step_fusion_step_ekf,
+     NULL},
+    {"insole_step_fusion_step_ukf", 200u, begin_fusion, make_news, call_insole_step_fusion_step_ukf,
+     NULL},
+    {"insole_step_fusion_fix", 200u, begin_fusion, make_news, call_insole_step_fusion_fix, NULL},
+    {"insole_ml_shift_fix", 200u, begin_ml_shift, make_news, call_insole_ml_shift_fix, NULL},
     {"insole_walker_ekf_step", 200u, begin_walker_known, make_walker_step,
-     call_insole_walker_ekf_step},
-    {"insole_walker_ekf_step_wide", 50u, NULL, make_walker_wide, call_insole_walker_ekf_step_wide},
-    {"insole_walker_ekf_fix", 200u, begin_walker_known, make_walker_fix,
-     call_insole_walker_ekf_fix},
+     call_insole_walker_ekf_step, NULL},
+    {"insole_walker_ekf_step_wide", 50u, NULL, make_walker_wide, call_insole_walker_ekf_step_wide,
+     NULL},
+    {"insole_walker_ekf_fix", 200u, begin_walker_known, make_walker_fix, call_insole_walker_ekf_fix,
+     NULL},
     {"insole_walker_ekf_compass", 200u, begin_walker_known, make_walker_fix,
-     call_insole_walker_ekf_compass},
-    {"insole_auto_start_moved", 50u, NULL, make_moved, call_insole_auto_start_moved},
-    {"insole_auto_start_circles", 50u, NULL, make_circles, call_insole_auto_start_circles},
+     call_insole_walker_ekf_compass, NULL},
+    {"insole_auto_start_moved", 50u, NULL, make_moved, call_insole_auto_start_moved, NULL},
+    {"insole_auto_start_circles", 50u, NULL, make_circles, call_insole_auto_start_circles, NULL},
 };
 
 const bench_table_t bench_phone = BENCH_TABLE(cases);

@@ -9,6 +9,12 @@ void bench_write(const char *text)
     fputs(text, stdout);
 }
 
+bool bench_is_wanted(const char *name)
+{
+    (void)name;
+    return true;
+}
+
 bool bench_counter_start(void)
 {
     return true;

@@ -62,7 +62,8 @@ START_TEST(nine_states_leave_the_bias_alone)
         case_t c = make_case(&rng), with_bias;
         insole_zupt_cov_t before = c.P;
         insole_zupt_cov_propagate(&c.P, c.u, &c.C, INSOLE_R(0.005), false);
-        insole_zupt_cov_correct_velocity(&c.P, insole_sym3_diagonal(1, 1, 1), INSOLE_R(0.1), false);
+        insole_zupt_cov_correct_velocity(&c.P, insole_sym3_diagonal(1, 1, 1), INSOLE_R(0.1),
+                                         insole_vec3_zero(), false);
         worst_require(&off, memcmp(&c.P.bb, &before.bb, sizeof c.P.bb) == 0, i);
         worst_require(&off, memcmp(&c.P.vb, &before.vb, sizeof c.P.vb) == 0, i);
 
@@ -88,6 +89,21 @@ static insole_sym3_t innovation_inverse(const insole_zupt_cov_t *P, insole_real_
     return W;
 }
 
+/* How far K z is from the dense one, in 1-sigmas of the state per 1-sigma of the measurement. */
+static double gain_off(const insole_zupt_error_t *dx, const dense_t *gain, insole_vec3_t z,
+                       const dense_t *P, double r)
+{
+    column_t got = column_of(dx);
+    double worst = 0.0;
+    for (int i = 0; i < DENSE; i++) {
+        double expected = gain->at[i][0] * (double)z.x + gain->at[i][1] * (double)z.y +
+                          gain->at[i][2] * (double)z.z;
+        double size = P->at[i][i] > 0.0 ? sqrt(P->at[i][i] / r) : 1.0;
+        worst = fmax(worst, fabs(got.at[i] - expected) / size);
+    }
+    return worst;
+}
+
 /* Variances of the velocity from far below to far above that of the measurement. */
 START_TEST(corrects_velocity_like_joseph)
 {
@@ -100,9 +116,12 @@ START_TEST(corrects_velocity_like_joseph)
         case_t c = make_case(&rng);
         dense_t gain;
         dense_t expected = dense_joseph(&c.dense, DENSE_V, 3, (double)r, &gain);
-        insole_zupt_cov_correct_velocity(&c.P, innovation_inverse(&c.P, r), r, true);
+        insole_vec3_t z = sample_vec3(&rng, 1);
+        insole_zupt_error_t dx =
+            insole_zupt_cov_correct_velocity(&c.P, innovation_inverse(&c.P, r), r, z, true);
         dense_t got = dense_of(&c.P);
         worst_note(&off, dense_off(&got, &expected, &c.dense), i);
+        worst_note(&off, gain_off(&dx, &gain, z, &c.dense, (double)r), i);
     }
     ASSERT_WORST(off, 5.0 * EPS, "(of the 1-sigmas before)");
 }
@@ -119,9 +138,13 @@ START_TEST(corrects_nine_states_like_joseph)
         forget_bias(&c);
         dense_t gain;
         dense_t expected = dense_joseph(&c.dense, DENSE_V, 3, (double)r, &gain);
-        insole_zupt_cov_correct_velocity(&c.P, innovation_inverse(&c.P, r), r, false);
+        insole_vec3_t z = sample_vec3(&rng, 1);
+        insole_zupt_error_t dx =
+            insole_zupt_cov_correct_velocity(&c.P, innovation_inverse(&c.P, r), r, z, false);
         dense_t got = dense_of(&c.P);
         worst_note(&off, dense_off(&got, &expected, &c.dense), i);
+        worst_note(&off, gain_off(&dx, &gain, z, &c.dense, (double)r), i);
+        ck_assert(dx.b.x == 0 && dx.b.y == 0 && dx.b.z == 0);
     }
     ASSERT_WORST(off, 5.0 * EPS, "(of the 1-sigmas before)");
 }
@@ -138,13 +161,13 @@ START_TEST(well_known_velocity_stays_positive)
         insole_real_t var = (insole_real_t)v;
         P.vv = insole_sym3_diagonal(var, var, var);
         insole_zupt_cov_correct_velocity(&P, innovation_inverse(&P, (insole_real_t)r),
-                                         (insole_real_t)r, true);
+                                         (insole_real_t)r, insole_vec3_zero(), true);
         worst_note(&off, fabs((double)P.vv.yy * (v + r) / (v * r) - 1.0), v);
     }
     ASSERT_WORST(off, 5.0 * EPS, "(relative)");
     insole_zupt_cov_t none = {0};
     insole_zupt_cov_correct_velocity(&none, innovation_inverse(&none, INSOLE_R(0.1)), INSOLE_R(0.1),
-                                     true);
+                                     insole_vec3_zero(), true);
     ck_assert(none.vv.xx == 0 && none.vv.yy == 0 && none.vv.zz == 0);
 }
 END_TEST
@@ -233,7 +256,8 @@ START_TEST(stays_positive_over_random_rounds)
         P.aa = insole_sym3_add_diagonal(P.aa, INSOLE_R(1.0e-9));
         if (i % 200 < 80) {
             insole_real_t r = INSOLE_R(4.0e-4);
-            insole_zupt_cov_correct_velocity(&P, innovation_inverse(&P, r), r, n == DENSE);
+            insole_zupt_cov_correct_velocity(&P, innovation_inverse(&P, r), r, insole_vec3_zero(),
+                                             n == DENSE);
         }
         if (i % 200 == 80) {
             insole_zupt_cov_correct_height(&P, INSOLE_R(1.0e-4));

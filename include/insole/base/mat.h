@@ -89,14 +89,14 @@ static inline insole_vec3_t insole_mat3_mul_vec_t(insole_mat3_t a, insole_vec3_t
 }
 
 /** A B */
-static inline insole_mat3_t insole_mat3_mul(insole_mat3_t a, insole_mat3_t b)
+INSOLE_INLINE insole_mat3_t insole_mat3_mul(insole_mat3_t a, insole_mat3_t b)
 {
     return insole_mat3_rows(insole_mat3_mul_vec_t(b, a.r0), insole_mat3_mul_vec_t(b, a.r1),
                             insole_mat3_mul_vec_t(b, a.r2));
 }
 
 /** A B' */
-static inline insole_mat3_t insole_mat3_mul_t(insole_mat3_t a, insole_mat3_t b)
+INSOLE_INLINE insole_mat3_t insole_mat3_mul_t(insole_mat3_t a, insole_mat3_t b)
 {
     return insole_mat3_rows(insole_mat3_mul_vec(b, a.r0), insole_mat3_mul_vec(b, a.r1),
                             insole_mat3_mul_vec(b, a.r2));
@@ -142,6 +142,13 @@ static inline insole_sym3_t insole_sym3_add_scaled(insole_sym3_t a, insole_real_
 {
     insole_sym3_t c = {a.xx + s * b.xx, a.xy + s * b.xy, a.xz + s * b.xz,
                        a.yy + s * b.yy, a.yz + s * b.yz, a.zz + s * b.zz};
+    return c;
+}
+
+/** s A */
+static inline insole_sym3_t insole_sym3_scale(insole_sym3_t a, insole_real_t s)
+{
+    insole_sym3_t c = {a.xx * s, a.xy * s, a.xz * s, a.yy * s, a.yz * s, a.zz * s};
     return c;
 }
 
@@ -192,7 +199,7 @@ static inline insole_vec3_t insole_sym3_mul_vec(insole_sym3_t a, insole_vec3_t v
 }
 
 /** M S with S symmetric. */
-static inline insole_mat3_t insole_mat3_mul_sym(insole_mat3_t m, insole_sym3_t s)
+INSOLE_INLINE insole_mat3_t insole_mat3_mul_sym(insole_mat3_t m, insole_sym3_t s)
 {
     return insole_mat3_rows(insole_sym3_mul_vec(s, m.r0), insole_sym3_mul_vec(s, m.r1),
                             insole_sym3_mul_vec(s, m.r2));

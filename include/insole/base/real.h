@@ -26,6 +26,13 @@ typedef float insole_real_t;
 #define INSOLE_REAL_EPSILON FLT_EPSILON
 #endif
 
+/** Inlined even where a compiler would rather not: what a constant argument makes small. */
+#ifdef __GNUC__
+#define INSOLE_INLINE static inline __attribute__((always_inline))
+#else
+#define INSOLE_INLINE static inline
+#endif
+
 #define INSOLE_PI INSOLE_R(3.14159265358979323846)
 
 /** Square root; correctly rounded, hence the same bits on every machine. */

@@ -6,7 +6,7 @@
  *          accelerometer's bias. With nine states the blocks of b are zero and not computed.
  *
  *      insole_zupt_cov_propagate(&P, force_dt_mps, C, dt_s, true);
- *      insole_zupt_cov_correct_velocity(&P, W, r, true);
+ *      dx = insole_zupt_cov_correct_velocity(&P, W, r, z, true);
  *
  *  What the filter and the smoother share; nothing is checked here. Nothing that is zero in
  *  Phi = [I I.dt 0 0; 0 I -U G; 0 0 I 0; 0 0 0 I] is multiplied: U = [f dt]x and G = -C dt.
@@ -45,9 +45,12 @@ insole_zupt_error_t insole_zupt_cov_of_velocity(const insole_zupt_cov_t *P, inso
 
 /** (I - K H) P for a measurement of the velocity.
  *  @param W  inverse of the innovation's covariance, (P_vv + r I)^-1
- *  @param r  variance of the measurement on each axis */
-void insole_zupt_cov_correct_velocity(insole_zupt_cov_t *P, insole_sym3_t W, insole_real_t r,
-                                      bool has_bias);
+ *  @param r  variance of the measurement on each axis
+ *  @param z  innovation
+ *  @return   K z, what it tells of the error; none of the bias without `has_bias` */
+insole_zupt_error_t insole_zupt_cov_correct_velocity(insole_zupt_cov_t *P, insole_sym3_t W,
+                                                     insole_real_t r, insole_vec3_t z,
+                                                     bool has_bias);
 
 /** The column of P that belongs to the height: P h' with h = e_z of p. */
 insole_zupt_error_t insole_zupt_cov_of_height(const insole_zupt_cov_t *P);

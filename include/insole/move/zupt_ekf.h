@@ -60,11 +60,12 @@ typedef struct {
 
 extern const insole_zupt_ekf_config_t insole_zupt_ekf_defaults;
 
-/** Process noise waiting to be added: singly it would be lost to rounding within hours. */
+/** What process noise grows with, waiting to be added: singly it would be lost to rounding within
+ *  hours. */
 typedef struct {
-    insole_real_t velocity_m2ps2; /**< on each axis of v */
-    insole_sym3_t attitude_rad2;  /**< on a */
-    insole_real_t bias_m2ps4;     /**< on each axis of b */
+    insole_real_t time_s;
+    insole_real_t turned_rad2ps; /**< square of the turn rate, summed over the time */
+    insole_sym3_t clip_rad2;     /**< noise about axes that were clipped */
     uint32_t samples;
 } insole_zupt_noise_t;
 
@@ -121,8 +122,9 @@ insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf, insole_vec3_t mean
 /** Mechanisation (12)-(17) and covariance (19)-(24) up to `imu->t_us`.
  *  @param imu  gyro bias already removed
  *  @param clipped bit m set: the gyro of body axis m is at the end of its range
- *  @return INSOLE_ERR_STATE before alignment, INSOLE_ERR_TIME, INSOLE_ERR_VALUE (a component beyond
- *          1e4 m/s^2 or 1e3 rad/s, or a step of more than one second: use insole_zupt_ekf_coast) */
+ *  @return INSOLE_ERR_STATE before alignment, INSOLE_ERR_TIME, INSOLE_ERR_VALUE (more than
+ *          1.5e4 m/s^2 or 1.5e3 rad/s, or a step of more than one second: use
+ *          insole_zupt_ekf_coast) */
 insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu_t *imu,
                                         uint32_t clipped);
 
