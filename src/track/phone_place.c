@@ -6,6 +6,7 @@
 #include "insole/track/foot_anchor.h"
 
 #define ZERO INSOLE_R(0.0)
+#define HALF INSOLE_R(0.5)
 #define ONE  INSOLE_R(1.0)
 
 const insole_phone_place_config_t insole_phone_place_defaults = {
@@ -185,10 +186,24 @@ static insole_status_t begin_by_fixes(insole_phone_place_t *p, const insole_spot
     bool directs = found.var_offset_rad2 <= insole_square(p->config.direct_sigma_rad);
     if (found.ready || (directs && learns_offset(p))) {
         const insole_step_filter_begin_t at = {
-            fix->t_us, found.spot, found.cov_m2, found.offset_rad, found.var_offset_rad2, true};
+            fix->t_us, found.spot,     found.cov_m2, found.offset_rad, found.var_offset_rad2,
+            true,      found.shared_m2};
         return begin(p, &at);
     }
     return INSOLE_OK;
+}
+
+/* Of dense fingerprints fixes tell more, and what they share is less. */
+static void learn_bias(insole_phone_place_t *p, const insole_spot_fix_t *fix)
+{
+    insole_real_t var_m2 = HALF * (fix->cov_m2.xx + fix->cov_m2.yy);
+    p->told += p->told < UINT32_MAX ? 1u : 0u;
+    p->told_m2 += (var_m2 - p->told_m2) / (insole_real_t)p->told;
+    insole_real_t sigma_m = p->config.bias_share * insole_sqrt(p->told_m2);
+    (void)insole_auto_start_bias(&p->auto_start, sigma_m);
+    if (p->filter.calls->bias) {
+        (void)note(p, p->filter.calls->bias(p->filter.state, sigma_m));
+    }
 }
 
 insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole_spot_fix_t *fix)
@@ -198,6 +213,9 @@ insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole
     }
     if (is_reached(place, fix->t_us)) {
         return INSOLE_OK;
+    }
+    if (insole_spot_fix_check(fix) == INSOLE_OK) {
+        learn_bias(place, fix);
     }
     return place->is_started ? note(place, place->filter.calls->fix(place->filter.state, fix))
                              : begin_by_fixes(place, fix);
@@ -240,7 +258,8 @@ insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_u
         insole_spot_cov(insole_sym2_add(at.cov_m2, insole_sym2_circle(way_m2))),
         at.offset_rad,
         insole_min(at.var_offset_rad2 + turn_rad2, INSOLE_HEADING_MOST_R2),
-        false};
+        false,
+        ZERO};
     return begin(place, &anew);
 }
 
