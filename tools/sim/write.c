@@ -15,6 +15,9 @@
 #include "sim/survey.h"
 #include "sim/trunk.h"
 
+/* Room for the name of a setting. */
+enum { SETTING_BYTES = 64 };
+
 /* The files of one walk. */
 typedef struct {
     FILE *log, *truth;
@@ -222,15 +225,32 @@ static bool write_walk(sim_walk_t *walk, const sim_scenario_t *scenario, const c
     return done;
 }
 
-static bool simulate(const char *path, const char *folder, uint64_t seed, sim_report_t *report,
-                     sim_error_t *error)
+/* `key=value`; NULL: nothing. */
+static bool set(sim_settings_t *settings, const char *setting, sim_error_t *error)
+{
+    char key[SETTING_BYTES];
+    const char *value = setting != NULL ? strchr(setting, '=') : NULL;
+    if (setting == NULL) {
+        return true;
+    }
+    if (value == NULL || (size_t)(value - setting) >= sizeof key) {
+        return sim_fail(error, "%.100s: expected key=value", setting);
+    }
+    memcpy(key, setting, (size_t)(value - setting));
+    key[value - setting] = '\0';
+    return sim_settings_set(settings, key, value + 1, error);
+}
+
+static bool simulate(const char *path, const char *folder, uint64_t seed, const char *setting,
+                     sim_report_t *report, sim_error_t *error)
 {
     sim_scenario_t scenario;
     if (!sim_scenario_load(path, &scenario, error)) {
         return false;
     }
     bool done = false;
-    sim_walk_t *walk = sim_walk_open(&scenario, seed, error);
+    sim_walk_t *walk =
+        set(&scenario.settings, setting, error) ? sim_walk_open(&scenario, seed, error) : NULL;
     if (walk != NULL) {
         done = write_walk(walk, &scenario, folder, seed, report, error) &&
                sim_site_write(path, &scenario, seed, folder, error);
@@ -243,9 +263,17 @@ static bool simulate(const char *path, const char *folder, uint64_t seed, sim_re
 int sim_write_scenario(const char *scenario_path, const char *out_dir, uint64_t seed,
                        sim_report_t *report, char *error, size_t error_size)
 {
+    return sim_write_scenario_with(scenario_path, out_dir, seed, NULL, report, error, error_size);
+}
+
+int sim_write_scenario_with(const char *scenario_path, const char *out_dir, uint64_t seed,
+                            const char *setting, sim_report_t *report, char *error,
+                            size_t error_size)
+{
     sim_error_t reason;
     sim_report_t unused;
-    if (simulate(scenario_path, out_dir, seed, report == NULL ? &unused : report, &reason)) {
+    if (simulate(scenario_path, out_dir, seed, setting, report == NULL ? &unused : report,
+                 &reason)) {
         return 0;
     }
     if (error == NULL) {

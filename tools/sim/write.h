@@ -32,4 +32,10 @@ typedef struct {
 int sim_write_scenario(const char *scenario_path, const char *out_dir, uint64_t seed,
                        sim_report_t *report, char *error, size_t error_size);
 
+/** The same, with a setting that counts as if it stood at the end of the scenario.
+ *  @param setting  `key=value`; NULL: none */
+int sim_write_scenario_with(const char *scenario_path, const char *out_dir, uint64_t seed,
+                            const char *setting, sim_report_t *report, char *error,
+                            size_t error_size);
+
 #endif
