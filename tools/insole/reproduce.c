@@ -14,16 +14,6 @@
 #include "score.h"
 #include "statistics.h"
 
-static bool begin_more(reproduction_t *reproduction, failure_t *failure)
-{
-    const reproduce_more_t *more = reproduction->paper->more;
-    if (more == NULL) {
-        return true;
-    }
-    reproduction->more = more->size > 0u ? memory_new(1u, more->size) : NULL;
-    return more->begin == NULL || more->begin(reproduction, failure);
-}
-
 bool reproduce_begin(reproduction_t *reproduction, const reproduce_paper_t *paper,
                      const reproduce_request_t *request, failure_t *failure)
 {
@@ -44,8 +34,7 @@ bool reproduce_begin(reproduction_t *reproduction, const reproduce_paper_t *pape
                                       "where");
     }
     return reproduce_set(&reproduction->paper_settings, paper->settings, failure) &&
-           reproduce_set(&reproduction->our_settings, none, failure) &&
-           begin_more(reproduction, failure);
+           reproduce_set(&reproduction->our_settings, none, failure);
 }
 
 /* ---- errors ----------------------------------------------------------------------------- */
@@ -154,6 +143,16 @@ static bool draw_all(const reproduction_t *reproduction, bool is_first_walk, fai
 
 /* ---- all walks -------------------------------------------------------------------------- */
 
+static bool begin_more(reproduction_t *reproduction, failure_t *failure)
+{
+    const reproduce_more_t *more = reproduction->paper->more;
+    if (more == NULL) {
+        return true;
+    }
+    reproduction->more = more->size > 0u ? memory_new(1u, more->size) : NULL;
+    return more->begin == NULL || more->begin(reproduction, failure);
+}
+
 static bool measure_more(reproduction_t *reproduction, int walk, failure_t *failure)
 {
     const reproduce_more_t *more = reproduction->paper->more;
@@ -180,7 +179,7 @@ bool reproduce_measure(reproduction_t *reproduction, failure_t *failure)
 {
     progress_t progress;
     progress_begin(&progress);
-    bool is_good = reproduce_survey(reproduction, failure);
+    bool is_good = begin_more(reproduction, failure) && reproduce_survey(reproduction, failure);
     for (int walk = 0; is_good && walk < reproduction->request.runs; walk++) {
         is_good = measure_walk(reproduction, walk, &progress, failure);
     }

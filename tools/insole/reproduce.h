@@ -84,9 +84,10 @@ typedef enum {
 
 typedef struct reproduction reproduction_t;
 
-/** Some walks differ from the others by this; each key=value, NULL: nothing. */
+/** Some walks differ from the others by this; settings are key=value ..., NULL: none. */
 typedef struct {
-    const char *scenario; /**< a setting of the simulator */
+    const char *name;
+    const char *scenario; /**< settings of the simulator */
     const char *settings; /**< what is known of such walks, for the paper's parts alone */
 } reproduce_kind_t;
 
@@ -152,6 +153,7 @@ typedef struct {
 
 extern const reproduce_paper_t reproduce_two_order;
 extern const reproduce_paper_t reproduce_phone_ekf;
+extern const reproduce_paper_t reproduce_phone_ukf;
 
 /** What is asked for. */
 typedef struct {

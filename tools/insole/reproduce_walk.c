@@ -27,11 +27,11 @@ static const double vague_place_m = 900.0;
 /* ---- scenarios -------------------------------------------------------------------------- */
 
 bool reproduce_simulate(const char *maps, const char *scenario, const char *folder, uint64_t seed,
-                        const char *setting, failure_t *failure)
+                        const char *set, failure_t *failure)
 {
     char error[sizeof failure->text];
     char *path = platform_join(maps, scenario);
-    int status = sim_write_scenario_with(path, folder, seed, setting, NULL, error, sizeof error);
+    int status = sim_write_scenario_with(path, folder, seed, set, NULL, error, sizeof error);
     free(path);
     if (status != 0) {
         failure_input(failure, "%s", error);

@@ -12,9 +12,9 @@
 #include "reproduce.h"
 
 /** Simulates a scenario of the folder `maps` into a folder.
- *  @param setting  of the simulator, key=value; NULL: none */
+ *  @param set  settings of the simulator, key=value ...; NULL: none */
 bool reproduce_simulate(const char *maps, const char *scenario, const char *folder, uint64_t seed,
-                        const char *setting, failure_t *failure);
+                        const char *set, failure_t *failure);
 
 /** The survey that all walks share, if the paper has one. */
 bool reproduce_survey(const reproduction_t *reproduction, failure_t *failure);

@@ -15,8 +15,8 @@
 #include "sim/survey.h"
 #include "sim/trunk.h"
 
-/* Room for the name of a setting. */
-enum { SETTING_BYTES = 64 };
+/* Room for a setting. */
+enum { SETTING_BYTES = 100 };
 
 /* The files of one walk. */
 typedef struct {
@@ -225,23 +225,37 @@ static bool write_walk(sim_walk_t *walk, const sim_scenario_t *scenario, const c
     return done;
 }
 
-/* `key=value`; NULL: nothing. */
-static bool set(sim_settings_t *settings, const char *setting, sim_error_t *error)
+/* `key=value` of so many characters. */
+static bool set_pair(sim_settings_t *settings, const char *pair, size_t length, sim_error_t *error)
 {
-    char key[SETTING_BYTES];
-    const char *value = setting != NULL ? strchr(setting, '=') : NULL;
-    if (setting == NULL) {
-        return true;
+    char text[SETTING_BYTES];
+    if (length >= sizeof text) {
+        return sim_fail(error, "a setting has %zu characters, expected at most %d", length,
+                        SETTING_BYTES - 1);
     }
-    if (value == NULL || (size_t)(value - setting) >= sizeof key) {
-        return sim_fail(error, "%.100s: expected key=value", setting);
+    memcpy(text, pair, length);
+    text[length] = '\0';
+    char *value = strchr(text, '=');
+    if (value == NULL) {
+        return sim_fail(error, "'%s', expected key=value", text);
     }
-    memcpy(key, setting, (size_t)(value - setting));
-    key[value - setting] = '\0';
-    return sim_settings_set(settings, key, value + 1, error);
+    *value = '\0';
+    return sim_settings_set(settings, text, value + 1, error);
 }
 
-static bool simulate(const char *path, const char *folder, uint64_t seed, const char *setting,
+static bool set_all(sim_settings_t *settings, const char *pairs, sim_error_t *error)
+{
+    bool done = true;
+    const char *at = pairs != NULL ? pairs : "";
+    for (at += strspn(at, " "); done && *at != '\0'; at += strspn(at, " ")) {
+        size_t length = strcspn(at, " ");
+        done = set_pair(settings, at, length, error);
+        at += length;
+    }
+    return done;
+}
+
+static bool simulate(const char *path, const char *folder, uint64_t seed, const char *set,
                      sim_report_t *report, sim_error_t *error)
 {
     sim_scenario_t scenario;
@@ -250,7 +264,7 @@ static bool simulate(const char *path, const char *folder, uint64_t seed, const 
     }
     bool done = false;
     sim_walk_t *walk =
-        set(&scenario.settings, setting, error) ? sim_walk_open(&scenario, seed, error) : NULL;
+        set_all(&scenario.settings, set, error) ? sim_walk_open(&scenario, seed, error) : NULL;
     if (walk != NULL) {
         done = write_walk(walk, &scenario, folder, seed, report, error) &&
                sim_site_write(path, &scenario, seed, folder, error);
@@ -267,13 +281,11 @@ int sim_write_scenario(const char *scenario_path, const char *out_dir, uint64_t 
 }
 
 int sim_write_scenario_with(const char *scenario_path, const char *out_dir, uint64_t seed,
-                            const char *setting, sim_report_t *report, char *error,
-                            size_t error_size)
+                            const char *set, sim_report_t *report, char *error, size_t error_size)
 {
     sim_error_t reason;
     sim_report_t unused;
-    if (simulate(scenario_path, out_dir, seed, setting, report == NULL ? &unused : report,
-                 &reason)) {
+    if (simulate(scenario_path, out_dir, seed, set, report == NULL ? &unused : report, &reason)) {
         return 0;
     }
     if (error == NULL) {
