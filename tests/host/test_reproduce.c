@@ -1,50 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200112L /* setenv */
-#include "reproduce.h"
+#include "reproduced.h"
 
-#include <math.h>
-#include <stdlib.h>
-
-#include "files.h"
-#include "near.h"
-#include "platform.h"
-#include "suite.h"
-#include "xml.h"
-
-static failure_t failure;
-static reproduction_t reproduction;
-
-static reproduce_request_t request_of(int runs, uint64_t seed, const char *out)
-{
-    reproduce_request_t request = {MAPS, out, runs, seed};
-    return request;
-}
+#include "memory.h"
 
 static void measure(int runs, uint64_t seed, const char *out)
 {
-    reproduce_request_t request = request_of(runs, seed, out);
-    bool is_good = reproduce_begin(&reproduction, &reproduce_two_order, &request, &failure) &&
-                   reproduce_measure(&reproduction, &failure);
-    ck_assert_msg(is_good, "%s", failure.text);
-}
-
-static const char *printed(void (*print)(const reproduction_t *, FILE *))
-{
-    FILE *file = tmpfile();
-    ck_assert_ptr_nonnull(file);
-    print(&reproduction, file);
-    return text_of(file);
+    measure_paper(&reproduce_two_order, runs, seed, out);
 }
 
 static int row_of(const char *label)
 {
-    for (int i = 0; i < reproduce_two_order.row_count; i++) {
-        if (strcmp(reproduce_two_order.rows[i].label, label) == 0) {
-            return i;
-        }
-    }
-    ck_abort_msg("no row %s", label);
-    return -1;
+    return row_in(&reproduce_two_order, label);
 }
 
 /* ---- the table of the paper --------------------------------------------------------------- */
@@ -66,19 +33,13 @@ START_TEST(what_is_printed_is_the_papers)
         }
     }
     ck_assert_int_eq(reproduce_two_order.column_count, 4);
-    ck_assert(isnan(reproduce_two_order.rows[row_of("Wi-Fi only")].printed.m[REPRODUCE_MEAN]));
+    ck_assert(!(reproduce_two_order.rows[row_of("Wi-Fi only")].printed.m[REPRODUCE_MEAN] > 0.0));
 }
 END_TEST
 
 START_TEST(claims_name_rows_that_are_there)
 {
-    for (int i = 0; i < reproduce_two_order.claim_count; i++) {
-        const reproduce_claim_t *claim = &reproduce_two_order.claims[i];
-        ck_assert(claim->row >= 0 && claim->row < reproduce_two_order.row_count);
-        ck_assert(claim->rival >= 0 && claim->rival < reproduce_two_order.row_count);
-        ck_assert(!claim->is_against_print ||
-                  !isnan(reproduce_two_order.rows[claim->rival].printed.m[claim->figure]));
-    }
+    check_claims(&reproduce_two_order);
 }
 END_TEST
 
@@ -116,32 +77,18 @@ START_TEST(figures_are_those_of_the_errors)
 }
 END_TEST
 
-/* A walk is the same among others as alone. */
 START_TEST(walks_do_not_depend_on_each_other)
 {
     measure(2, 7u, NULL);
-    reproduce_figures_t among[REPRODUCE_ROWS];
-    for (int row = 0; row < reproduce_two_order.row_count; row++) {
-        among[row] = reproduction.results[row].walks[1];
-    }
-    reproduce_free(&reproduction);
-    measure(1, 8u, NULL);
-    for (int row = 0; row < reproduce_two_order.row_count; row++) {
-        const reproduce_figures_t *alone = &reproduction.results[row].walks[0];
-        for (int k = 0; k < REPRODUCE_FIGURES; k++) {
-            ASSERT_NEAR(alone->m[k], among[row].m[k], 0.0, "m");
-        }
-    }
-    reproduce_free(&reproduction);
+    check_walk_alone(&reproduce_two_order, 1, 8u);
 }
 END_TEST
 
 START_TEST(equal_seeds_give_equal_tables)
 {
-    char table[8192], json[16384];
     measure(1, 1u, NULL);
-    snprintf(table, sizeof table, "%s", printed(reproduce_print));
-    snprintf(json, sizeof json, "%s", printed(reproduce_json));
+    char *table = memory_text(printed(reproduce_print)),
+         *json = memory_text(printed(reproduce_json));
     reproduce_free(&reproduction);
     measure(1, 1u, NULL);
     ck_assert_str_eq(printed(reproduce_print), table);
@@ -151,6 +98,8 @@ START_TEST(equal_seeds_give_equal_tables)
     ck_assert_str_ne(printed(reproduce_print), table);
     ck_assert_str_ne(printed(reproduce_json), json);
     reproduce_free(&reproduction);
+    free(table);
+    free(json);
 }
 END_TEST
 
@@ -191,10 +140,7 @@ START_TEST(claims_say_lower_and_higher)
 {
     static const reproduce_row_t rows[] = {
         {.label = "slow", .method = METHOD_INS, .printed = {{9.0, 0.0, 6.0, 7.0, 8.0}}},
-        {.label = "quick",
-         .method = METHOD_BEST,
-         .is_ours = true,
-         .printed = REPRODUCE_NOT_PRINTED}};
+        {.label = "quick", .method = METHOD_BEST, .is_ours = true}};
     static const reproduce_claim_t claims[] = {{1, 0, REPRODUCE_MEAN, false, "first"},
                                                {1, 0, REPRODUCE_MEAN, true, "second"},
                                                {0, 1, REPRODUCE_MEAN, false, "third"},
@@ -244,10 +190,7 @@ START_TEST(figures_are_drawn)
     char *out = platform_join(SCRATCH, "figures");
     measure(1, 1u, out);
     for (int i = 0; i < 4; i++) {
-        char *path = platform_join(out, names[i]);
-        const char *fault = xml_fault(content_of(path));
-        ck_assert_msg(fault == NULL, "%s is not well formed at: %.60s", names[i], fault);
-        free(path);
+        check_picture(out, names[i]);
     }
     reproduce_free(&reproduction);
     free(out);

@@ -7,6 +7,7 @@
 #include "files.h"
 #include "near.h"
 #include "platform.h"
+#include "reproduce_walk.h"
 #include "suite.h"
 #include "xml.h"
 
@@ -138,7 +139,7 @@ START_TEST(who_is_told_the_start_is_as_in_the_paper)
         bool knows = row->method == METHOD_WPF || row->method == METHOD_PHONE_PDR;
         ck_assert_int_eq(row->is_told, knows);
         settings_t settings;
-        ck_assert_msg(wifi_shift_set(&settings, row->settings, &failure), "%s", failure.text);
+        ck_assert_msg(reproduce_set(&settings, row->settings, &failure), "%s", failure.text);
     }
 }
 END_TEST

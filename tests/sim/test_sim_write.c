@@ -471,6 +471,37 @@ START_TEST(a_shoe_knows_nothing_of_phones)
 }
 END_TEST
 
+/* Settings beside a scenario are those that stand in it. */
+START_TEST(settings_may_stand_beside_a_scenario)
+{
+    char error[512];
+    ck_assert_int_eq(
+        simulate("inside", WALK "imu.rate_hz = 50\nwalk.lead_in_s = 1\n", 3, NULL, error), 0);
+    ck_assert_int_eq(simulate("beside", WALK "imu.rate_hz = 100\n", 3, NULL, error), 0);
+    ck_assert_int_eq(sim_write_scenario_with(OUT "_beside.scenario", OUT "_beside", 3,
+                                             " imu.rate_hz=50  walk.lead_in_s=1", NULL, error,
+                                             sizeof error),
+                     0);
+    char *inside = text_of("inside", "log.csv"), *beside = text_of("beside", "log.csv");
+    ck_assert_str_eq(inside, beside);
+    free(inside);
+    free(beside);
+    static const char *const bad[][2] = {
+        {"imu.rate_hz", "'imu.rate_hz', expected key=value"},
+        {"imu.rate_hz=50 imu.rate_hz=5", "expected a number from 50"},
+        {"imu.no_such=1", "no setting is called 'imu.no_such'"},
+        {"imu.rate_hz=50000000000000000000000000000000000000000000000000000000000000000000000000000"
+         "0000000000000000000000000000",
+         "expected at most 99"}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        ck_assert_int_eq(sim_write_scenario_with(OUT "_beside.scenario", OUT "_beside", 3,
+                                                 bad[i][0], NULL, error, sizeof error),
+                         -1);
+        ck_assert_msg(strstr(error, bad[i][1]) != NULL, "%s", error);
+    }
+}
+END_TEST
+
 #ifndef INSOLE_DOUBLE
 /* Squares of all readings of one walk, as the simulator made it before it knew phones; in double
  * the generator draws other numbers. */
@@ -527,6 +558,7 @@ Suite *insole_suite(void)
     suite_add(suite, "scoring", what_scores_a_phone_is_not_in_its_log);
     suite_add(suite, "no magnetometer", a_phone_without_magnetometer_writes_the_same_motion);
     suite_add(suite, "shoe", a_shoe_knows_nothing_of_phones);
+    suite_add(suite, "beside", settings_may_stand_beside_a_scenario);
 #ifndef INSOLE_DOUBLE
     suite_add(suite, "kept", shoe_walks_stay_as_they_are);
 #endif

@@ -17,7 +17,7 @@ bool reproduce_draw_chart(const reproduction_t *reproduction, const chart_t *cha
     chart_t named = *chart;
     named.title = picture->title;
     named.subtitle = picture->subtitle;
-    char *path = platform_join(reproduction->request.out, picture->name);
+    char *path = platform_join(reproduction->request.out, picture->file);
     bool is_good = chart_write(&named, path, failure);
     free(path);
     return is_good;
@@ -36,7 +36,7 @@ bool reproduce_draw_ways(const reproduction_t *reproduction, const track_t *trac
                          .track_count = count,
                          .truth = &reproduction->truth,
                          .site = &reproduction->site};
-    char *path = platform_join(reproduction->request.out, picture->name);
+    char *path = platform_join(reproduction->request.out, picture->file);
     bool is_good = plot_write(&plot, path, failure);
     free(path);
     return is_good;
@@ -73,18 +73,22 @@ bool reproduce_draw_tracks(const reproduction_t *reproduction, const int *rows, 
 
 /* ---- shares ----------------------------------------------------------------------------- */
 
-/* Which share of a row's errors is smaller, in percent. */
-static void add_shares(chart_line_t *line, const reproduce_result_t *result, double shown_m)
+void reproduce_add_shares(chart_line_t *line, double *values, size_t count, double shown)
+{
+    (void)statistics_percentile(values, count, 0.0);
+    for (size_t i = 0u; count > 0u && i <= SHARES; i++) {
+        double value = values[i * (count - 1u) / SHARES];
+        if (value <= shown) {
+            chart_add(line, value, 100.0 / SHARES * (double)i);
+        }
+    }
+}
+
+static void add_row(chart_line_t *line, const reproduce_result_t *result, double shown_m)
 {
     double *sorted_m = memory_new(result->error_count, sizeof *sorted_m);
     memcpy(sorted_m, result->errors_m, result->error_count * sizeof *sorted_m);
-    (void)statistics_percentile(sorted_m, result->error_count, 0.0);
-    for (size_t i = 0u; i <= SHARES; i++) {
-        double error_m = sorted_m[i * (result->error_count - 1u) / SHARES];
-        if (error_m <= shown_m) {
-            chart_add(line, error_m, 100.0 / SHARES * (double)i);
-        }
-    }
+    reproduce_add_shares(line, sorted_m, result->error_count, shown_m);
     free(sorted_m);
 }
 
@@ -95,7 +99,7 @@ bool reproduce_draw_shares(const reproduction_t *reproduction, const int *rows, 
     memset(lines, 0, sizeof lines);
     for (size_t i = 0u; i < count; i++) {
         lines[i].name = reproduction->paper->rows[rows[i]].label;
-        add_shares(&lines[i], &reproduction->results[rows[i]], shown_m);
+        add_row(&lines[i], &reproduction->results[rows[i]], shown_m);
     }
     const chart_t chart = {.x_name = "error [m]",
                            .y_name = "errors below it [%]",

@@ -11,11 +11,6 @@
 #include "plot_chart.h"
 #include "reproduce.h"
 
-typedef struct {
-    const char *name; /**< of the file */
-    const char *title, *subtitle;
-} reproduce_picture_t;
-
 /** Writes a chart; title and subtitle are the picture's. */
 bool reproduce_draw_chart(const reproduction_t *reproduction, const chart_t *chart,
                           const reproduce_picture_t *picture, failure_t *failure);
@@ -33,5 +28,9 @@ bool reproduce_draw_tracks(const reproduction_t *reproduction, const int *rows, 
  *  @param shown_m what is shown of them */
 bool reproduce_draw_shares(const reproduction_t *reproduction, const int *rows, size_t count,
                            double shown_m, const reproduce_picture_t *picture, failure_t *failure);
+
+/** Adds to a line which share of some values is smaller than each, in percent.
+ *  @param values  are sorted */
+void reproduce_add_shares(chart_line_t *line, double *values, size_t count, double shown);
 
 #endif

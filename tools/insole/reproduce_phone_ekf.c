@@ -49,7 +49,7 @@ static const reproduce_figure_t columns[] = {REPRODUCE_MEAN, REPRODUCE_STD};
 #define PRINTED(mean, std)                                                                         \
     {                                                                                              \
         {                                                                                          \
-            NUMBER_UNKNOWN, NUMBER_UNKNOWN, mean, NUMBER_UNKNOWN, std                              \
+            [REPRODUCE_MEAN] = mean, [REPRODUCE_STD] = std                                         \
         }                                                                                          \
     }
 
@@ -60,16 +60,14 @@ static const reproduce_row_t rows[ROWS] = {
     [PDR_GYRO] = {"PDR (gyro)", METHOD_PDR_GYRO, .lacks_plan = true,
                   .printed = PRINTED(1.56, 1.07)},
     [WIFI] = {"Wi-Fi localization", METHOD_WIFI_KDE, .lacks_plan = true,
-              .printed = PRINTED(2.83, 2.79), .setting = "kde_fix.sigma_db=5"},
+              .printed = PRINTED(2.83, 2.79), .settings = "kde_fix.sigma_db=5"},
     [CLOUD] = {"particle filter", METHOD_PF, .lacks_plan = true, .printed = PRINTED(0.81, 0.40)},
     [CLOUD_KDE] = {"improved PF", METHOD_PF_KDE, .lacks_plan = true, .printed = PRINTED(0.65, 0.33),
-                   .setting = "plain_cloud.length_share=0.2"},
-    [OUR_BEST] = {"best", METHOD_PHONE_BEST, .is_ours = true, .lacks_plan = true,
-                  .printed = REPRODUCE_NOT_PRINTED},
-    [OUR_BEST_PLAN] = {"best, with the plan", METHOD_PHONE_BEST, .is_ours = true,
-                       .printed = REPRODUCE_NOT_PRINTED},
+                   .settings = "plain_cloud.length_share=0.2"},
+    [OUR_BEST] = {"best", METHOD_PHONE_BEST, .is_ours = true, .lacks_plan = true},
+    [OUR_BEST_PLAN] = {"best, with the plan", METHOD_PHONE_BEST, .is_ours = true},
     [OUR_BEST_TOLD] = {"best, own step length", METHOD_PHONE_BEST, .is_ours = true,
-                       .lacks_plan = true, .printed = REPRODUCE_NOT_PRINTED, .setting = OWN_STEPS}};
+                       .lacks_plan = true, .settings = OWN_STEPS}};
 
 static const reproduce_claim_t claims[] = {
     {EKF, PDR, REPRODUCE_MEAN, false, "the paper: 42.7 % lower"},
@@ -223,45 +221,39 @@ static bool draw_headings(const reproduction_t *reproduction, failure_t *failure
     return is_good;
 }
 
-/* ---- figures 7 and 8 -------------------------------------------------------------------- */
+/* ---- the paper -------------------------------------------------------------------------- */
 
 static bool draw_walk(const reproduction_t *reproduction, failure_t *failure)
 {
-    static const int paper[] = {EKF, PDR, PDR_GYRO, WIFI}, ours[] = {EKF, OUR_BEST, OUR_BEST_PLAN};
-    static const reproduce_picture_t theirs = {"figure7.svg", "The walk by four methods",
-                                               "As figure 7 of [PhoneEKF], the first walk"};
-    static const reproduce_picture_t defaults = {"figure7b.svg", "The walk by our defaults",
-                                                 "The first walk; not in the paper"};
-    return draw_legs(reproduction, failure) && draw_headings(reproduction, failure) &&
-           reproduce_draw_tracks(reproduction, paper, 4u, &theirs, failure) &&
-           reproduce_draw_tracks(reproduction, ours, 3u, &defaults, failure);
+    return draw_legs(reproduction, failure) && draw_headings(reproduction, failure);
 }
 
-static bool draw_all(const reproduction_t *reproduction, failure_t *failure)
-{
-    static const int drawn[] = {EKF, PDR, PDR_GYRO, WIFI, CLOUD, CLOUD_KDE};
-    static const reproduce_picture_t picture = {"figure8.svg", "How many errors are how small",
-                                                "As figure 8 of [PhoneEKF], all walks"};
-    return reproduce_draw_shares(reproduction, drawn, sizeof drawn / sizeof drawn[0], 8.0, &picture,
-                                 failure);
-}
+static const reproduce_drawing_t drawings[] = {
+    {.picture = {"figure7.svg", "The walk by four methods",
+                 "As figure 7 of [PhoneEKF], the first walk"},
+     .rows = {EKF, PDR, PDR_GYRO, WIFI},
+     .count = 4},
+    {.picture = {"figure7b.svg", "The walk by our defaults", "The first walk; not in the paper"},
+     .rows = {EKF, OUR_BEST, OUR_BEST_PLAN},
+     .count = 3},
+    {.picture = {"figure8.svg", "How many errors are how small",
+                 "As figure 8 of [PhoneEKF], all walks"},
+     .shown_m = 8.0,
+     .rows = {EKF, PDR, PDR_GYRO, WIFI, CLOUD, CLOUD_KDE},
+     .count = 6}};
 
-const reproduce_paper_t reproduce_phone_ekf = {
-    .name = "PhoneEKF",
-    .table = "table 1",
-    .scenario = "office/phone_ekf.scenario",
-    .survey = "office/phone_ekf_survey",
-    .begin_s = 3.0,
-    .scored = REPRODUCE_AT_STEPS,
-    .columns = columns,
-    .column_count = (int)(sizeof columns / sizeof columns[0]),
-    .settings = settings,
-    .notes = notes,
-    .rows = rows,
-    .row_count = ROWS,
-    .claims = claims,
-    .claim_count = (int)(sizeof claims / sizeof claims[0]),
-    .draw_walk = draw_walk,
-    .draw_all = draw_all};
+static const reproduce_more_t more = {.draw_walk = draw_walk};
+
+const reproduce_paper_t reproduce_phone_ekf = {.name = "PhoneEKF",
+                                               .table = "table 1",
+                                               .scenario = "office/phone_ekf.scenario",
+                                               .survey = "office/phone_ekf_survey",
+                                               .runs = 20,
+                                               .begin_s = 3.0,
+                                               .scored = REPRODUCE_AT_STEPS,
+                                               REPRODUCE_TABLE(columns, rows, claims, drawings),
+                                               .settings = settings,
+                                               .notes = notes,
+                                               .more = &more};
 
 #endif

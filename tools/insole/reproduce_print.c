@@ -6,34 +6,20 @@
 #include "json.h"
 #include "number.h"
 
-static const char *const names[REPRODUCE_FIGURES] = {[REPRODUCE_MAX] = "max",
-                                                     [REPRODUCE_MIN] = "min",
-                                                     [REPRODUCE_MEAN] = "mean",
-                                                     [REPRODUCE_RMS] = "rms",
-                                                     [REPRODUCE_STD] = "std"};
+static const char *const names[REPRODUCE_FIGURES] = {
+    [REPRODUCE_MAX] = "max", [REPRODUCE_MIN] = "min",   [REPRODUCE_MEAN] = "mean",
+    [REPRODUCE_RMS] = "rms", [REPRODUCE_STD] = "std",   [REPRODUCE_75] = "75 %",
+    [REPRODUCE_90] = "90 %", [REPRODUCE_NEAR] = "% <1m"};
 
-static const char *const keys[REPRODUCE_FIGURES] = {[REPRODUCE_MAX] = "max_m",
-                                                    [REPRODUCE_MIN] = "min_m",
-                                                    [REPRODUCE_MEAN] = "mean_m",
-                                                    [REPRODUCE_RMS] = "rms_m",
-                                                    [REPRODUCE_STD] = "std_m"};
+static const char *const keys[REPRODUCE_FIGURES] = {
+    [REPRODUCE_MAX] = "max_m",   [REPRODUCE_MIN] = "min_m",
+    [REPRODUCE_MEAN] = "mean_m", [REPRODUCE_RMS] = "rms_m",
+    [REPRODUCE_STD] = "std_m",   [REPRODUCE_75] = "p75_m",
+    [REPRODUCE_90] = "p90_m",    [REPRODUCE_NEAR] = "within_1m_percent"};
 
 const char *reproduce_figure_name(reproduce_figure_t figure)
 {
     return names[figure];
-}
-
-reproduce_figures_t reproduce_means(const reproduction_t *reproduction, int row)
-{
-    const reproduce_figures_t *walks = reproduction->results[row].walks;
-    double share = 1.0 / reproduction->request.runs;
-    reproduce_figures_t means = {{0.0}};
-    for (int i = 0; i < reproduction->request.runs; i++) {
-        for (int k = 0; k < REPRODUCE_FIGURES; k++) {
-            means.m[k] += share * walks[i].m[k];
-        }
-    }
-    return means;
 }
 
 /* The lowest and the highest mean error of a walk. */
@@ -47,12 +33,22 @@ static void find_span(const reproduction_t *reproduction, int row, double *low_m
     }
 }
 
+/* What is not printed is not known. */
+static reproduce_figures_t printed_of(const reproduce_row_t *row)
+{
+    reproduce_figures_t printed = row->printed;
+    for (int i = 0; i < REPRODUCE_FIGURES; i++) {
+        printed.m[i] = printed.m[i] > 0.0 ? printed.m[i] : NUMBER_UNKNOWN;
+    }
+    return printed;
+}
+
 /* By how much a row's figure lies below its rival's; negative: above. */
 static double share_below(const reproduction_t *reproduction, const reproduce_claim_t *claim)
 {
     reproduce_figures_t own = reproduce_means(reproduction, claim->row);
     reproduce_figures_t rival = claim->is_against_print
-                                    ? reproduction->paper->rows[claim->rival].printed
+                                    ? printed_of(&reproduction->paper->rows[claim->rival])
                                     : reproduce_means(reproduction, claim->rival);
     return 1.0 - own.m[claim->figure] / rival.m[claim->figure];
 }
@@ -87,15 +83,16 @@ static void print_row(FILE *file, const reproduction_t *reproduction, int row)
     const reproduce_paper_t *paper = reproduction->paper;
     const reproduce_row_t *asked = &paper->rows[row];
     reproduce_figures_t means = reproduce_means(reproduction, row);
+    reproduce_figures_t printed = printed_of(asked);
     double low_m, high_m;
     find_span(reproduction, row, &low_m, &high_m);
     fprintf(file, "%-22s", asked->label);
     print_figures(file, paper, &means);
     print_cell(file, low_m);
     print_cell(file, high_m);
-    if (!isnan(asked->printed.m[REPRODUCE_MEAN])) {
+    if (!isnan(printed.m[REPRODUCE_MEAN])) {
         fputs("  ", file);
-        print_figures(file, paper, &asked->printed);
+        print_figures(file, paper, &printed);
     }
     fputc('\n', file);
 }
@@ -122,9 +119,11 @@ static void print_head(FILE *file, const reproduction_t *reproduction)
     if (reproduction->request.runs > 1) {
         fprintf(file, " to %llu", first + (unsigned long long)reproduction->request.runs - 1u);
     }
-    fputs("\nError in m. Measured: each figure is the mean of the walks'; low and high are the\n"
-          "least and the largest mean of a walk. Printed: one walk.\n\n",
-          file);
+    fprintf(file,
+            "\nError in m. Measured: each figure is %s; low and high are the\n"
+            "least and the largest mean of a walk. Printed: %s.\n\n",
+            paper->is_pooled ? "that of all errors" : "the mean of the walks'",
+            paper->is_pooled ? "40 walks" : "one walk");
     fprintf(file, "%-22s%*s  %*s\n%-22s", "", CELL * (paper->column_count + 2), "measured",
             CELL * paper->column_count, "printed", "method");
     print_names(file, paper);
@@ -149,6 +148,10 @@ void reproduce_print(const reproduction_t *reproduction, FILE *file)
         print_claim(file, reproduction, &paper->claims[i]);
     }
     fputc('\n', file);
+    if (paper->more != NULL && paper->more->print != NULL) {
+        paper->more->print(reproduction, file);
+        fputc('\n', file);
+    }
     for (const char *const *note = paper->notes; *note != NULL; note++) {
         fprintf(file, "%s\n", *note);
     }
@@ -171,12 +174,13 @@ static void json_row(json_t *json, const reproduction_t *reproduction, int row)
     const reproduce_paper_t *paper = reproduction->paper;
     const reproduce_row_t *asked = &paper->rows[row];
     reproduce_figures_t means = reproduce_means(reproduction, row);
+    reproduce_figures_t printed = printed_of(asked);
     json_object(json, NULL);
     json_text(json, "label", asked->label);
     json_text(json, "method", method_name(asked->method));
     json_text(json, "settings", asked->is_ours ? "ours" : "paper");
     json_figures(json, "measured", paper, &means);
-    json_figures(json, "printed", paper, &asked->printed);
+    json_figures(json, "printed", paper, &printed);
     json_array(json, "walks");
     for (int i = 0; i < reproduction->request.runs; i++) {
         json_figures(json, NULL, paper, &reproduction->results[row].walks[i]);
@@ -220,5 +224,8 @@ void reproduce_json(const reproduction_t *reproduction, FILE *file)
         json_claim(&json, reproduction, &paper->claims[i]);
     }
     json_end(&json);
+    if (paper->more != NULL && paper->more->json != NULL) {
+        paper->more->json(reproduction, &json);
+    }
     json_end(&json);
 }

@@ -39,7 +39,7 @@ static const char *const notes[] = {
 #define PRINTED(max, min, mean, rms)                                                               \
     {                                                                                              \
         {                                                                                          \
-            max, min, mean, rms, NUMBER_UNKNOWN                                                    \
+            max, min, mean, rms                                                                    \
         }                                                                                          \
     }
 
@@ -47,15 +47,14 @@ static const reproduce_figure_t columns[] = {REPRODUCE_MAX, REPRODUCE_MIN, REPRO
                                              REPRODUCE_RMS};
 
 static const reproduce_row_t rows[ROWS] = {
-    [INS] = {"INS+EKF", METHOD_INS, false, false, false, PRINTED(7.21, 0.02, 2.86, 3.88), NULL},
-    [PDR] = {"PDR-only", METHOD_PDR, false, false, false, PRINTED(11.59, 0.02, 3.04, 5.73), NULL},
-    [WIFI] = {"Wi-Fi only", METHOD_WIFI, false, false, false, REPRODUCE_NOT_PRINTED, NULL},
-    [TWO_ORDER] = {"two-order", METHOD_TWO_ORDER, false, true, false,
-                   PRINTED(4.83, 0.01, 1.85, 2.19), NULL},
-    [TWO_ORDER_TOLD] = {"two-order, true start", METHOD_TWO_ORDER, false, false, false,
-                        REPRODUCE_NOT_PRINTED, NULL},
-    [OUR_INS] = {"ins", METHOD_INS, true, false, false, REPRODUCE_NOT_PRINTED, NULL},
-    [OUR_BEST] = {"best", METHOD_BEST, true, false, false, REPRODUCE_NOT_PRINTED, NULL}};
+    [INS] = {"INS+EKF", METHOD_INS, .printed = PRINTED(7.21, 0.02, 2.86, 3.88)},
+    [PDR] = {"PDR-only", METHOD_PDR, .printed = PRINTED(11.59, 0.02, 3.04, 5.73)},
+    [WIFI] = {"Wi-Fi only", METHOD_WIFI},
+    [TWO_ORDER] = {"two-order", METHOD_TWO_ORDER, .start = REPRODUCE_START_BY_RADIO,
+                   .printed = PRINTED(4.83, 0.01, 1.85, 2.19)},
+    [TWO_ORDER_TOLD] = {"two-order, true start", METHOD_TWO_ORDER},
+    [OUR_INS] = {"ins", METHOD_INS, .is_ours = true},
+    [OUR_BEST] = {"best", METHOD_BEST, .is_ours = true}};
 
 static const reproduce_claim_t claims[] = {
     {TWO_ORDER, INS, REPRODUCE_MEAN, false, "the paper: 35 % lower"},
@@ -137,46 +136,34 @@ static bool draw_stances(const reproduction_t *reproduction, failure_t *failure)
     return is_good;
 }
 
-/* ---- the other figures ------------------------------------------------------------------ */
+/* ---- the paper --------------------------------------------------------------------------- */
 
 #define FIGURE_6 "As figure 6 of [TwoOrder], the first walk"
 
-static bool draw_walk(const reproduction_t *reproduction, failure_t *failure)
-{
-    static const int radio[] = {WIFI}, fused[] = {INS, PDR, TWO_ORDER, OUR_BEST};
-    static const reproduce_picture_t by_radio = {"figure6a.svg",
-                                                 "Wi-Fi alone, by the propagation model", FIGURE_6};
-    static const reproduce_picture_t by_four = {"figure6b.svg", "The walk by four methods",
-                                                FIGURE_6};
-    return draw_stances(reproduction, failure) &&
-           reproduce_draw_tracks(reproduction, radio, 1u, &by_radio, failure) &&
-           reproduce_draw_tracks(reproduction, fused, 4u, &by_four, failure);
-}
+static const reproduce_drawing_t drawings[] = {
+    {.picture = {"figure6a.svg", "Wi-Fi alone, by the propagation model", FIGURE_6},
+     .rows = {WIFI},
+     .count = 1},
+    {.picture = {"figure6b.svg", "The walk by four methods", FIGURE_6},
+     .rows = {INS, PDR, TWO_ORDER, OUR_BEST},
+     .count = 4},
+    {.picture = {"figure7.svg", "How many errors are how small",
+                 "As figure 7 of [TwoOrder], all walks"},
+     .shown_m = 12.0,
+     .rows = {INS, PDR, TWO_ORDER, OUR_BEST, WIFI, OUR_INS},
+     .count = 6}};
 
-static bool draw_all(const reproduction_t *reproduction, failure_t *failure)
-{
-    static const int drawn[] = {INS, PDR, TWO_ORDER, OUR_BEST, WIFI, OUR_INS};
-    static const reproduce_picture_t picture = {"figure7.svg", "How many errors are how small",
-                                                "As figure 7 of [TwoOrder], all walks"};
-    return reproduce_draw_shares(reproduction, drawn, sizeof drawn / sizeof drawn[0], 12.0,
-                                 &picture, failure);
-}
+static const reproduce_more_t more = {.draw_walk = draw_stances};
 
-const reproduce_paper_t reproduce_two_order = {
-    .name = "TwoOrder",
-    .table = "table 3",
-    .scenario = "student_centre/two_order.scenario",
-    .begin_s = 3.0,
-    .scored = REPRODUCE_AT_TRUTH,
-    .columns = columns,
-    .column_count = (int)(sizeof columns / sizeof columns[0]),
-    .settings = settings,
-    .notes = notes,
-    .rows = rows,
-    .row_count = ROWS,
-    .claims = claims,
-    .claim_count = (int)(sizeof claims / sizeof claims[0]),
-    .draw_walk = draw_walk,
-    .draw_all = draw_all};
+const reproduce_paper_t reproduce_two_order = {.name = "TwoOrder",
+                                               .table = "table 3",
+                                               .scenario = "student_centre/two_order.scenario",
+                                               .runs = 20,
+                                               .begin_s = 3.0,
+                                               .scored = REPRODUCE_AT_TRUTH,
+                                               REPRODUCE_TABLE(columns, rows, claims, drawings),
+                                               .settings = settings,
+                                               .notes = notes,
+                                               .more = &more};
 
 #endif

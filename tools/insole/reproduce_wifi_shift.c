@@ -6,12 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "config_keys.h"
 #include "memory.h"
 #include "platform.h"
 #include "progress.h"
+#include "reproduce_walk.h"
 #include "score.h"
-#include "sim/write.h"
 #include "statistics.h"
 #include "track_reader.h"
 
@@ -23,17 +22,10 @@ static const int64_t begin_us = 3000000;
 static bool simulate(const wifi_shift_t *study, const char *name, const char *folder, uint64_t seed,
                      failure_t *failure)
 {
-    char error[sizeof failure->text];
-    char *hall = platform_join(study->request.maps, "exhibition_hall");
-    char *scenario = platform_join(hall, name);
-    int status = sim_write_scenario(scenario, folder, seed, NULL, error, sizeof error);
+    char *scenario = platform_join("exhibition_hall", name);
+    bool is_good = reproduce_simulate(study->request.maps, scenario, folder, seed, NULL, failure);
     free(scenario);
-    free(hall);
-    if (status != 0) {
-        failure_input(failure, "%s", error);
-        return failure_add(failure, " (--maps DIR tells where the maps are)");
-    }
-    return true;
+    return is_good;
 }
 
 /* So many of all access points, evenly spread over their list. */
@@ -131,23 +123,6 @@ bool wifi_shift_begin(wifi_shift_t *study, const reproduce_request_t *request, f
 
 /* ---- a row on a walk ---------------------------------------------------------------------- */
 
-bool wifi_shift_set(settings_t *settings, const char *const *pairs, failure_t *failure)
-{
-    settings_init(settings);
-    bool is_good = true;
-    for (; is_good && *pairs != NULL; pairs++) {
-        is_good = config_set_pair(settings, *pairs, failure);
-    }
-    return is_good;
-}
-
-static bool keep_row(void *context, const track_row_t *row, failure_t *failure)
-{
-    (void)failure;
-    track_add(context, row);
-    return true;
-}
-
 static void add_errors(wifi_shift_error_t *sum, const track_t *track, const track_t *truth)
 {
     double *errors_m = memory_new(truth->count, sizeof *errors_m);
@@ -163,7 +138,7 @@ static bool measure_row(wifi_shift_t *study, const wifi_shift_walk_t *walk, int 
     const wifi_shift_row_t *asked = &wifi_shift_rows[row];
     const char *const logs[] = {walk->log};
     track_t track = {NULL, 0u, 0u};
-    const replay_sink_t sink = {&track, NULL, keep_row, NULL};
+    const replay_sink_t sink = {&track, NULL, reproduce_keep_row, NULL};
     replay_facts_t facts;
     replay_request_t request = {.logs = logs,
                                 .log_count = 1u,
@@ -173,7 +148,7 @@ static bool measure_row(wifi_shift_t *study, const wifi_shift_walk_t *walk, int 
                                 .seed = walk->seed,
                                 .rate_hz = 10.0,
                                 .no_start = !asked->is_told};
-    bool is_good = wifi_shift_set(&request.settings, asked->settings, failure);
+    bool is_good = reproduce_set(&request.settings, asked->settings, failure);
     if (is_good) {
         is_good = replay_run(&request, &sink, &facts, failure);
         replay_facts_free(&facts);

@@ -15,6 +15,7 @@
 #ifndef INSOLE_HOST_REPRODUCE_WIFI_SHIFT_H
 #define INSOLE_HOST_REPRODUCE_WIFI_SHIFT_H
 
+#include "number.h"
 #include "reproduce.h"
 
 /** On the command line. */
@@ -85,9 +86,6 @@ bool wifi_shift_begin(wifi_shift_t *study, const reproduce_request_t *request, f
 
 /** Simulates, replays and scores. */
 bool wifi_shift_measure(wifi_shift_t *study, failure_t *failure);
-
-/** The defaults and these, key=value; the last is NULL. */
-bool wifi_shift_set(settings_t *settings, const char *const *pairs, failure_t *failure);
 
 /** Looks for the walk's start by the first fixes, more and more of them. */
 bool wifi_shift_hunt(wifi_shift_t *study, const wifi_shift_walk_t *walk, failure_t *failure);

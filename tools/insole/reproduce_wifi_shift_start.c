@@ -10,6 +10,7 @@
 #include "phone_estimator.h"
 #include "platform.h"
 #include "plot_chart.h"
+#include "reproduce_walk.h"
 #include "session.h"
 
 /* A start that is looked for, and where the walk began: nobody moves before the first row of the
@@ -95,7 +96,7 @@ static bool hunt_start(wifi_shift_t *study, const wifi_shift_walk_t *walk, wifi_
                                      .method = METHOD_ML_SHIFT,
                                      .map = &study->sites[0].radiomap_file.map,
                                      .seed = walk->seed};
-    if (!wifi_shift_set(&settings, kind == WIFI_SHIFT_CIRCLES ? circles : moved, failure)) {
+    if (!reproduce_set(&settings, kind == WIFI_SHIFT_CIRCLES ? circles : moved, failure)) {
         return false;
     }
     phone_estimator_t *estimator = memory_new(1u, sizeof *estimator);

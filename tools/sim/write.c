@@ -15,6 +15,9 @@
 #include "sim/survey.h"
 #include "sim/trunk.h"
 
+/* Room for a setting. */
+enum { SETTING_BYTES = 100 };
+
 /* The files of one walk. */
 typedef struct {
     FILE *log, *truth;
@@ -222,15 +225,46 @@ static bool write_walk(sim_walk_t *walk, const sim_scenario_t *scenario, const c
     return done;
 }
 
-static bool simulate(const char *path, const char *folder, uint64_t seed, sim_report_t *report,
-                     sim_error_t *error)
+/* `key=value` of so many characters. */
+static bool set_pair(sim_settings_t *settings, const char *pair, size_t length, sim_error_t *error)
+{
+    char text[SETTING_BYTES];
+    if (length >= sizeof text) {
+        return sim_fail(error, "a setting has %zu characters, expected at most %d", length,
+                        SETTING_BYTES - 1);
+    }
+    memcpy(text, pair, length);
+    text[length] = '\0';
+    char *value = strchr(text, '=');
+    if (value == NULL) {
+        return sim_fail(error, "'%s', expected key=value", text);
+    }
+    *value = '\0';
+    return sim_settings_set(settings, text, value + 1, error);
+}
+
+static bool set_all(sim_settings_t *settings, const char *pairs, sim_error_t *error)
+{
+    bool done = true;
+    const char *at = pairs != NULL ? pairs : "";
+    for (at += strspn(at, " "); done && *at != '\0'; at += strspn(at, " ")) {
+        size_t length = strcspn(at, " ");
+        done = set_pair(settings, at, length, error);
+        at += length;
+    }
+    return done;
+}
+
+static bool simulate(const char *path, const char *folder, uint64_t seed, const char *set,
+                     sim_report_t *report, sim_error_t *error)
 {
     sim_scenario_t scenario;
     if (!sim_scenario_load(path, &scenario, error)) {
         return false;
     }
     bool done = false;
-    sim_walk_t *walk = sim_walk_open(&scenario, seed, error);
+    sim_walk_t *walk =
+        set_all(&scenario.settings, set, error) ? sim_walk_open(&scenario, seed, error) : NULL;
     if (walk != NULL) {
         done = write_walk(walk, &scenario, folder, seed, report, error) &&
                sim_site_write(path, &scenario, seed, folder, error);
@@ -243,9 +277,15 @@ static bool simulate(const char *path, const char *folder, uint64_t seed, sim_re
 int sim_write_scenario(const char *scenario_path, const char *out_dir, uint64_t seed,
                        sim_report_t *report, char *error, size_t error_size)
 {
+    return sim_write_scenario_with(scenario_path, out_dir, seed, NULL, report, error, error_size);
+}
+
+int sim_write_scenario_with(const char *scenario_path, const char *out_dir, uint64_t seed,
+                            const char *set, sim_report_t *report, char *error, size_t error_size)
+{
     sim_error_t reason;
     sim_report_t unused;
-    if (simulate(scenario_path, out_dir, seed, report == NULL ? &unused : report, &reason)) {
+    if (simulate(scenario_path, out_dir, seed, set, report == NULL ? &unused : report, &reason)) {
         return 0;
     }
     if (error == NULL) {

@@ -32,4 +32,9 @@ typedef struct {
 int sim_write_scenario(const char *scenario_path, const char *out_dir, uint64_t seed,
                        sim_report_t *report, char *error, size_t error_size);
 
+/** The same, with settings that count as if they stood at the end of the scenario.
+ *  @param set  `key=value key=value ...`; NULL: none */
+int sim_write_scenario_with(const char *scenario_path, const char *out_dir, uint64_t seed,
+                            const char *set, sim_report_t *report, char *error, size_t error_size);
+
 #endif

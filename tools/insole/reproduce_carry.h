@@ -1,0 +1,40 @@
+/** @file reproduce_carry.h  How well the carrying position is told: table 1 of [PhoneUKF].
+ *
+ *  A forest is grown on walks of other people with other mountings and judges the windows of the
+ *  present walks while they are walked.
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_HOST_REPRODUCE_CARRY_H
+#define INSOLE_HOST_REPRODUCE_CARRY_H
+
+#include "confusion.h"
+#include "forest_grow.h"
+#include "reproduce.h"
+
+/** Share of the windows of a position (row) that are taken for each (column). */
+typedef double reproduce_carry_printed_t[INSOLE_CARRY_CLASSES][INSOLE_CARRY_CLASSES];
+
+typedef struct {
+    carry_windows_t windows; /**< that the forest grew on; its classes are the positions */
+    grown_t grown;
+    bool is_grown;
+    confusion_t confusion;
+} reproduce_carry_t;
+
+/** Grows the forest: the paper's kinds of walks are the positions. */
+bool reproduce_carry_begin(reproduce_carry_t *carry, const reproduction_t *reproduction,
+                           failure_t *failure);
+
+/** Judges the present walk. */
+bool reproduce_carry_walk(reproduce_carry_t *carry, const reproduction_t *reproduction,
+                          failure_t *failure);
+
+void reproduce_carry_print(const reproduce_carry_t *carry, const reproduce_carry_printed_t printed,
+                           FILE *file);
+
+void reproduce_carry_json(const reproduce_carry_t *carry, json_t *json);
+
+void reproduce_carry_free(reproduce_carry_t *carry);
+
+#endif

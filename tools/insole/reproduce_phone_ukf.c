@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT */
+#include "reproduce.h"
+
+#ifdef INSOLE_HOST_HAS_SIMULATOR
+
+#include <string.h>
+
+#include "reproduce_carry.h"
+#include "reproduce_headings.h"
+
+enum { UKF, UKF_CONST, EKF_CONST, KF_CONST, PDR, WIFI, OUR_BEST, ROWS };
+
+/* ---- table 2 ---------------------------------------------------------------------------- */
+
+static const reproduce_kind_t kinds[] = {{"hand", "phone.pose=hand", NULL},
+                                         {"ear", "phone.pose=ear", NULL},
+                                         {"swing", "phone.pose=swing", NULL},
+                                         {"pocket", "phone.pose=pocket", NULL}};
+
+static const char *const settings[] = {"phone_walk.faces=any",           "phone_walk.gait=step",
+                                       "phone_compass.north_rad=1.5208", "magnetic.use=on",
+                                       "kde_fix.kernel=gauss",           "kde_fix.sigma_db=8",
+                                       "kde_fix.point_sigma_m=0.5",      "kde_fix.widen=1",
+                                       "step_fusion.gate=1e9",           NULL};
+
+static const char *const notes[] = {NULL};
+
+static const double sigmas_way_m[] = {0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2};
+static const double sigmas_length_m[] = {0.05, 0.1, 0.2, 0.4};
+static const double sigmas_heading_rad[] = {0.1, 0.2, 0.3, 0.45, 0.7, 1.0};
+static const double sigmas_fix_m[] = {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0};
+
+#define AXIS(key, values)                                                                          \
+    {                                                                                              \
+        key, values, REPRODUCE_COUNT(values)                                                       \
+    }
+
+static const reproduce_axis_t kf_axes[] = {AXIS("step_fusion.sigma_way_m", sigmas_way_m),
+                                           AXIS("step_fusion.sigma_fix_m", sigmas_fix_m)};
+static const reproduce_axis_t const_axes[] = {
+    AXIS("step_fusion.sigma_length_m", sigmas_length_m),
+    AXIS("step_fusion.sigma_heading_rad", sigmas_heading_rad),
+    AXIS("step_fusion.sigma_fix_m", sigmas_fix_m)};
+
+#define PRINTED(mean, p75, p90, near)                                                              \
+    {                                                                                              \
+        {                                                                                          \
+            [REPRODUCE_MEAN] = mean, [REPRODUCE_75] = p75, [REPRODUCE_90] = p90,                   \
+            [REPRODUCE_NEAR] = near                                                                \
+        }                                                                                          \
+    }
+
+/* All know the true place of the start and the magnetic north, and nothing of walls. */
+#define PHONE(its_label, its_method)                                                               \
+    .label = its_label, .method = its_method, .lacks_plan = true,                                  \
+    .start = REPRODUCE_START_BY_COMPASS
+
+static const reproduce_row_t rows[ROWS] = {
+    [UKF] = {PHONE("proposed UKF", METHOD_UKF), .printed = PRINTED(0.76, 1.02, 1.46, 74.8)},
+    [UKF_CONST] = {PHONE("UKF (empirical)", METHOD_UKF_CONST),
+                   .printed = PRINTED(1.01, 1.30, 1.88, 55.4), .axes = const_axes,
+                   .axis_count = REPRODUCE_COUNT(const_axes)},
+    [EKF_CONST] = {PHONE("EKF (empirical)", METHOD_EKF_CONST),
+                   .printed = PRINTED(1.09, 1.47, 2.26, 51.8), .axes = const_axes,
+                   .axis_count = REPRODUCE_COUNT(const_axes)},
+    [KF_CONST] = {PHONE("KF (empirical)", METHOD_KF_CONST),
+                  .printed = PRINTED(1.19, 1.61, 2.39, 48.4), .axes = kf_axes,
+                  .axis_count = REPRODUCE_COUNT(kf_axes)},
+    [PDR] = {PHONE("PDR", METHOD_UKF), .lacks_radio = true,
+             .printed = PRINTED(1.83, 2.65, 3.81, 32.4)},
+    [WIFI] = {PHONE("Wi-Fi localization", METHOD_WIFI_KDE),
+              .printed = PRINTED(2.26, 3.20, 4.44, 21.2)},
+    [OUR_BEST] = {PHONE("best", METHOD_PHONE_BEST), .is_ours = true}};
+
+static const reproduce_figure_t columns[] = {REPRODUCE_MEAN, REPRODUCE_75, REPRODUCE_90,
+                                             REPRODUCE_NEAR};
+
+static const reproduce_claim_t claims[] = {
+    {UKF, UKF_CONST, REPRODUCE_MEAN, false, "the paper: 24.8 % lower; to reach: 20 %"},
+    {UKF, EKF_CONST, REPRODUCE_MEAN, false, "the paper: 30.3 % lower"},
+    {UKF, KF_CONST, REPRODUCE_MEAN, false, "the paper: 36.1 % lower"},
+    {UKF, PDR, REPRODUCE_MEAN, false, "the paper: 58.5 % lower; to reach: 58 %"},
+    {UKF, WIFI, REPRODUCE_MEAN, false, "the paper: 66.4 % lower"},
+    {OUR_BEST, UKF, REPRODUCE_MEAN, false, "ours against the paper's, measured"}};
+
+static const reproduce_drawing_t drawings[] = {
+    {.picture = {"way.svg", "The walk by three methods", "The first walk; not in the paper"},
+     .rows = {UKF, PDR, WIFI},
+     .count = 3},
+    {.picture = {"figure5.svg", "How many errors are how small",
+                 "As figure 5 of [PhoneUKF], all walks"},
+     .shown_m = 8.0,
+     .rows = {UKF, UKF_CONST, EKF_CONST, KF_CONST, PDR, WIFI},
+     .count = 6}};
+
+/* ---- table 1, figures 3 and 4 ------------------------------------------------------------ */
+
+static const reproduce_heading_row_t heading_rows[] = {
+    {{PHONE("RMPCA on the UKF", METHOD_UKF), .lacks_radio = true}, 89.7},
+    {{PHONE("RMPCA on the EKF", METHOD_EKF), .lacks_radio = true}, 83.8},
+    {{PHONE("uDirect", METHOD_UKF), .lacks_radio = true, .settings = "walk_heading.method=udirect"},
+     58.4}};
+
+static const reproduce_carry_printed_t printed_carry = {{0.982, 0.018, 0.0, 0.0},
+                                                        {0.01, 0.990, 0.0, 0.0},
+                                                        {0.0, 0.0, 0.986, 0.014},
+                                                        {0.0, 0.0, 0.028, 0.972}};
+
+typedef struct {
+    reproduce_headings_t headings;
+    reproduce_carry_t carry;
+} study_t;
+
+static bool begin(reproduction_t *reproduction, failure_t *failure)
+{
+    study_t *study = reproduction->more;
+    study->headings.rows = heading_rows;
+    study->headings.row_count = REPRODUCE_COUNT(heading_rows);
+    return reproduce_carry_begin(&study->carry, reproduction, failure);
+}
+
+static bool walk(reproduction_t *reproduction, int number, failure_t *failure)
+{
+    study_t *study = reproduction->more;
+    (void)number;
+    return reproduce_headings_walk(&study->headings, reproduction, failure) &&
+           reproduce_carry_walk(&study->carry, reproduction, failure);
+}
+
+static bool draw(const reproduction_t *reproduction, failure_t *failure)
+{
+    const study_t *study = reproduction->more;
+    return reproduce_headings_draw(&study->headings, reproduction, failure);
+}
+
+static void print(const reproduction_t *reproduction, FILE *file)
+{
+    const study_t *study = reproduction->more;
+    reproduce_carry_print(&study->carry, printed_carry, file);
+    fputc('\n', file);
+    reproduce_headings_print(&study->headings, file);
+}
+
+static void json(const reproduction_t *reproduction, json_t *out)
+{
+    const study_t *study = reproduction->more;
+    reproduce_carry_json(&study->carry, out);
+    reproduce_headings_json(&study->headings, out);
+}
+
+static void free_study(reproduction_t *reproduction)
+{
+    study_t *study = reproduction->more;
+    reproduce_headings_free(&study->headings);
+    reproduce_carry_free(&study->carry);
+}
+
+static const reproduce_more_t more = {.size = sizeof(study_t),
+                                      .begin = begin,
+                                      .walk = walk,
+                                      .draw = draw,
+                                      .print = print,
+                                      .json = json,
+                                      .free = free_study};
+
+const reproduce_paper_t reproduce_phone_ukf = {.name = "PhoneUKF",
+                                               .table = "table 2",
+                                               .scenario = "office/phone_ukf.scenario",
+                                               .survey = "office/phone_ukf_survey",
+                                               .shares_survey = true,
+                                               .runs = 40,
+                                               .begin_s = 3.0,
+                                               .scored = REPRODUCE_AT_STEPS,
+                                               .is_pooled = true,
+                                               REPRODUCE_TABLE(columns, rows, claims, drawings),
+                                               .kinds = kinds,
+                                               .kind_count = REPRODUCE_COUNT(kinds),
+                                               .settings = settings,
+                                               .notes = notes,
+                                               .more = &more};
+
+#endif
