@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/auto_start.h"
 
+#include <string.h>
+
 #include "insole/fuse/step_ekf.h"
 
 #define ZERO INSOLE_R(0.0)
@@ -28,8 +30,7 @@ insole_status_t insole_auto_start_init(insole_auto_start_t *start,
     if (!(true INSOLE_AUTO_START_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_auto_start_t blank;
-    *start = blank;
+    memset(start, 0, sizeof *start);
     start->config = *config;
     return INSOLE_OK;
 }

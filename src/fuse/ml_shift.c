@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/ml_shift.h"
 
+#include <string.h>
+
 #include "insole/fuse/step_ekf.h"
 
 #define ZERO INSOLE_R(0.0)
@@ -24,8 +26,7 @@ insole_status_t insole_ml_shift_init(insole_ml_shift_t *ml, const insole_ml_shif
     if (!(true INSOLE_ML_SHIFT_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_ml_shift_t blank;
-    *ml = blank;
+    memset(ml, 0, sizeof *ml);
     ml->config = *config;
     return INSOLE_OK;
 }

@@ -2,6 +2,7 @@
 #include "insole/fuse/step_cloud.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #define ZERO INSOLE_R(0.0)
 
@@ -56,8 +57,7 @@ insole_status_t insole_step_cloud_init(insole_step_cloud_t *cloud,
     if (status != INSOLE_OK) {
         return status;
     }
-    static const insole_step_cloud_t blank;
-    *cloud = blank;
+    memset(cloud, 0, sizeof *cloud);
     cloud->process = config->process;
     cloud->measurement = config->measurement;
     cloud->sigma_fix_m = config->sigma_fix_m;

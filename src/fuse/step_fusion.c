@@ -2,6 +2,7 @@
 #include "insole/fuse/step_fusion.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
@@ -27,8 +28,7 @@ insole_status_t insole_step_fusion_init(insole_step_fusion_t *fusion,
     if (!(true INSOLE_STEP_FUSION_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_step_fusion_t blank;
-    *fusion = blank;
+    memset(fusion, 0, sizeof *fusion);
     fusion->config = *config;
     return INSOLE_OK;
 }

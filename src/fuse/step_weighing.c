@@ -2,6 +2,7 @@
 #include "insole/fuse/step_weighing.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #define ZERO INSOLE_R(0.0)
 #define HALF INSOLE_R(0.5)
@@ -13,8 +14,7 @@ insole_status_t insole_step_weighing_init(insole_step_weighing_t *steps,
     if (!steps || !config) {
         return INSOLE_ERR_NULL;
     }
-    static const insole_step_weighing_t blank;
-    *steps = blank;
+    memset(steps, 0, sizeof *steps);
     return insole_radio_bias_init(&steps->radio, config->bias_sigma_m, config->bias_s,
                                   config->fix_floor);
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/walker_ekf.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 #define HALF INSOLE_R(0.5)
 #define ONE  INSOLE_R(1.0)
@@ -32,8 +34,7 @@ insole_status_t insole_walker_ekf_init(insole_walker_ekf_t *walker,
     if (!(true INSOLE_WALKER_EKF_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_walker_ekf_t blank;
-    *walker = blank;
+    memset(walker, 0, sizeof *walker);
     walker->config = *config;
     return INSOLE_OK;
 }
@@ -44,8 +45,7 @@ static void begin(insole_walker_ekf_t *walker, const insole_walker_start_t *star
 {
     const insole_walker_ekf_config_t *c = &walker->config;
     insole_walker_state_t *state = &walker->state;
-    static const insole_walker_state_t blank;
-    *state = blank;
+    memset(state, 0, sizeof *state);
     state->spot = start->spot;
     state->offset_rad = insole_wrap_pi(start->offset_rad);
     state->scale = ONE;

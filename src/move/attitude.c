@@ -2,6 +2,7 @@
 #include "insole/move/attitude.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "insole/move/heading.h"
 
@@ -46,8 +47,7 @@ insole_status_t insole_attitude_init(insole_attitude_t *att, const insole_attitu
     if (!(true INSOLE_ATTITUDE_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_attitude_t blank;
-    *att = blank;
+    memset(att, 0, sizeof *att);
     att->config = *config;
     att->q = insole_quat_identity();
     att->upset_cos = config->upset_rad < INSOLE_PI ? insole_cos(config->upset_rad) : -INSOLE_R(2.0);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/move/gait_motion.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -12,11 +14,10 @@ static const insole_real_t LARGEST_MPS2 = INSOLE_R(1000.0), LARGEST_RAD = INSOLE
 
 insole_status_t insole_gait_motion_init(insole_gait_motion_t *motion)
 {
-    static const insole_gait_motion_t blank;
     if (!motion) {
         return INSOLE_ERR_NULL;
     }
-    *motion = blank;
+    memset(motion, 0, sizeof *motion);
     return INSOLE_OK;
 }
 

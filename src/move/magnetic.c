@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/move/magnetic.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 
 /* No magnetometer in a phone goes beyond; a level field weaker than LEAST_UT has no direction. */
@@ -33,8 +35,7 @@ insole_status_t insole_magnetic_init(insole_magnetic_t *magnetic,
     if (!(true INSOLE_MAGNETIC_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_magnetic_t blank;
-    *magnetic = blank;
+    memset(magnetic, 0, sizeof *magnetic);
     magnetic->config = *config;
     return INSOLE_OK;
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/move/stride.h"
 
+#include <string.h>
+
 #include "insole/base/fastmath.h"
 
 #define ZERO INSOLE_R(0.0)
@@ -16,8 +18,7 @@ insole_status_t insole_stride_init(insole_stride_counter_t *counter,
     if (!(true INSOLE_STRIDE_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_stride_counter_t blank;
-    *counter = blank;
+    memset(counter, 0, sizeof *counter);
     counter->config = *config;
     counter->k = config->k_stride > ZERO ? config->k_stride : config->first_k_stride;
     return INSOLE_OK;

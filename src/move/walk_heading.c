@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/move/walk_heading.h"
 
+#include <string.h>
+
 #include "insole/base/sym2.h"
 #include "insole/base/unscented.h"
 #include "insole/move/heading.h"
@@ -37,8 +39,7 @@ insole_status_t insole_walk_heading_init(insole_walk_heading_t *walk,
     if (!(true INSOLE_WALK_HEADING_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_walk_heading_t blank;
-    *walk = blank;
+    memset(walk, 0, sizeof *walk);
     walk->config = *config;
     return INSOLE_OK;
 }

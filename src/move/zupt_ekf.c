@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/move/zupt_ekf.h"
 
+#include <string.h>
+
 #define ZERO    INSOLE_R(0.0)
 #define TWELFTH (INSOLE_R(1.0) / INSOLE_R(12.0))
 #define SIXTH   (INSOLE_R(1.0) / INSOLE_R(6.0))
@@ -61,8 +63,7 @@ insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf, const insole_zupt_e
     if (!(true INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_zupt_ekf_t blank;
-    *ekf = blank;
+    memset(ekf, 0, sizeof *ekf);
     ekf->config = *config;
     ekf->gravity_mps2 = config->gravity_mps2;
     ekf->q = insole_quat_identity();

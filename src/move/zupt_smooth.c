@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/move/zupt_smooth.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 
 /* What the samples after a node tell about its error, and how surely. */
@@ -29,8 +31,7 @@ insole_status_t insole_zupt_smooth_init(insole_zupt_smooth_t *smooth, insole_zup
     if (count < 2u || (count & (count - 1u)) != 0u) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_zupt_smooth_t blank;
-    *smooth = blank;
+    memset(smooth, 0, sizeof *smooth);
     smooth->nodes = nodes;
     smooth->ring = insole_ring(count);
     return INSOLE_OK;

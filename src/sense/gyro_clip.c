@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/sense/gyro_clip.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -29,8 +31,7 @@ insole_status_t insole_gyro_clip_init(insole_gyro_clip_t *clip, insole_real_t ra
           share <= ONE)) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_gyro_clip_t blank;
-    *clip = blank;
+    memset(clip, 0, sizeof *clip);
     clip->told_radps = clip->range_radps = range_radps;
     clip->share = share;
     return INSOLE_OK;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/sense/rhythm.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -8,11 +10,10 @@ static const insole_real_t LARGEST = INSOLE_R(1.0e6); /* its square, summed, is 
 
 insole_status_t insole_rhythm_init(insole_rhythm_t *rhythm)
 {
-    static const insole_rhythm_t blank;
     if (!rhythm) {
         return INSOLE_ERR_NULL;
     }
-    *rhythm = blank;
+    memset(rhythm, 0, sizeof *rhythm);
     return INSOLE_OK;
 }
 

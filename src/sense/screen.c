@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/sense/screen.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -41,8 +43,7 @@ insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_
     if (!(true INSOLE_SCREEN_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_screen_t blank;
-    *screen = blank;
+    memset(screen, 0, sizeof *screen);
     screen->config = *config;
     screen->gap_us = microseconds(config->gap_s);
     screen->hold_us = microseconds(config->hold_s);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/sense/step.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -34,8 +36,7 @@ insole_status_t insole_step_init(insole_step_counter_t *counter, const insole_st
     if (!(true INSOLE_STEP_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_step_counter_t blank;
-    *counter = blank;
+    memset(counter, 0, sizeof *counter);
     counter->config = *config;
     counter->ring = insole_ring(INSOLE_STEP_RING);
     counter->usual_interval_s = FIRST_INTERVAL_S;

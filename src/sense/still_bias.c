@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/sense/still_bias.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 
 /* A block with an interval longer than this is thrown away. */
@@ -21,8 +23,7 @@ insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
     if (!(true INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_still_bias_t blank;
-    *rest = blank;
+    memset(rest, 0, sizeof *rest);
     rest->config = *config;
     rest->block_us = (uint32_t)(config->block_s * INSOLE_R(1.0e6) + INSOLE_R(0.5));
     rest->gravity_mps2 = config->gravity_mps2;

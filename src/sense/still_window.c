@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/sense/still_window.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -19,8 +21,7 @@ insole_status_t insole_still_window_init(insole_still_window_t *window,
         !is_positive(scale->sigma_accel_mps2) || !is_positive(scale->sigma_gyro_radps)) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_still_window_t blank;
-    *window = blank;
+    memset(window, 0, sizeof *window);
     window->kind = scale->kind;
     window->width = width;
     window->gravity_mps2 = scale->gravity_mps2;

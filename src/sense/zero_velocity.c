@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/sense/zero_velocity.h"
 
+#include <string.h>
+
 #include "insole/base/fastmath.h"
 
 #define ONE INSOLE_R(1.0)
@@ -35,8 +37,7 @@ insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
     if (!(true INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_zero_velocity_t blank;
-    *zv = blank;
+    memset(zv, 0, sizeof *zv);
     zv->config = *config;
     zv->ring = insole_ring(INSOLE_STANCE_RING);
     zv->reach_us = microseconds(config->reach_s);

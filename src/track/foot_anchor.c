@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/foot_anchor.h"
 
+#include <string.h>
+
 #include "insole/base/fastmath.h"
 
 #define ZERO INSOLE_R(0.0)
@@ -25,8 +27,7 @@ insole_status_t insole_foot_anchor_init(insole_foot_anchor_t *anchor, insole_rea
     if (!(drift_radps >= ZERO) || !insole_is_finite(drift_radps)) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_foot_anchor_t blank;
-    *anchor = blank;
+    memset(anchor, 0, sizeof *anchor);
     anchor->turn = insole_turn(ZERO);
     anchor->drift_radps = drift_radps;
     anchor->t_us = t_us;

@@ -2,6 +2,7 @@
 #include "insole/track/foot_late.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "insole/base/fastmath.h"
 
@@ -20,8 +21,7 @@ insole_status_t insole_foot_late_init(insole_foot_late_t *late, insole_late_row_
     if (!late || (!rows && room > 0u)) {
         return INSOLE_ERR_NULL;
     }
-    static const insole_foot_late_t blank;
-    *late = blank;
+    memset(late, 0, sizeof *late);
     late->rows = rows;
     late->room = room;
     return INSOLE_OK;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/foot_tracker.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 
 /* What a rate that is interpolated over a gap may be wrong by. */
@@ -17,8 +19,7 @@ insole_status_t insole_foot_tracker_init(insole_foot_tracker_t *tracker,
     if (status != INSOLE_OK) {
         return status;
     }
-    static const insole_foot_tracker_t blank;
-    *tracker = blank;
+    memset(tracker, 0, sizeof *tracker);
     tracker->config = *config;
     (void)insole_screen_init(&tracker->screen, &config->screen);
     (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);

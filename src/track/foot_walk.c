@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/foot_walk.h"
 
+#include <string.h>
+
 #include "insole/base/fastmath.h"
 
 #define ZERO INSOLE_R(0.0)
@@ -24,8 +26,7 @@ insole_status_t insole_foot_walk_init(insole_foot_walk_t *walk)
     if (!walk) {
         return INSOLE_ERR_NULL;
     }
-    static const insole_foot_walk_t blank;
-    *walk = blank;
+    memset(walk, 0, sizeof *walk);
     return INSOLE_OK;
 }
 

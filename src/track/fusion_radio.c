@@ -2,6 +2,7 @@
 #include "insole/track/fusion_radio.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "insole/base/fastmath.h"
 
@@ -324,8 +325,7 @@ insole_status_t insole_fusion_radio_take(insole_fusion_radio_t *radio, insole_fi
     if (!radio->is_new) {
         return INSOLE_ERR_STATE;
     }
-    static const insole_fix_t blank;
-    *fix = blank;
+    memset(fix, 0, sizeof *fix);
     fix->state = INSOLE_FIX_TRACK;
     fix->var_heading_rad2 = insole_square(INSOLE_PI);
     fix->t_us = radio->fix_us;

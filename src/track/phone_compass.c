@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/phone_compass.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 
 const insole_phone_compass_config_t insole_phone_compass_defaults = {
@@ -20,8 +22,7 @@ insole_status_t insole_phone_compass_init(insole_phone_compass_t *compass,
     if (!(true INSOLE_PHONE_COMPASS_KEYS(INSOLE_CONFIG_IN_RANGE))) {
         return INSOLE_ERR_VALUE;
     }
-    static const insole_phone_compass_t blank;
-    *compass = blank;
+    memset(compass, 0, sizeof *compass);
     compass->config = *config;
     return INSOLE_OK;
 }

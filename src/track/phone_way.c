@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/phone_way.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -14,8 +16,7 @@ insole_status_t insole_phone_way_init(insole_phone_way_t *way)
     if (!way) {
         return INSOLE_ERR_NULL;
     }
-    static const insole_phone_way_t blank;
-    *way = blank;
+    memset(way, 0, sizeof *way);
     way->ring = insole_ring(INSOLE_PHONE_WAY_STEPS);
     return INSOLE_OK;
 }
