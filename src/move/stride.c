@@ -108,8 +108,8 @@ static bool push_still(insole_stride_counter_t *c, const insole_stride_input_t *
     }
     c->was_still = true;
     c->last = *in;
-    insole_real_t lasted_s = (insole_real_t)(in->t_us - c->arrived_us) * INSOLE_R(1.0e-6);
-    return !c->settled && lasted_s >= c->config.settle_s && end_stride(c, stride);
+    return !c->settled && insole_seconds(c->arrived_us, in->t_us) >= c->config.settle_s &&
+           end_stride(c, stride);
 }
 
 static bool push_moving(insole_stride_counter_t *c, const insole_stride_input_t *in,

@@ -10,14 +10,14 @@ typedef struct {
 } phi_t;
 
 /* What the velocity gains, -U a + G b, with something whose covariances with a and b are given. */
-INSOLE_INLINE insole_vec3_t gain(const phi_t *phi, insole_vec3_t a, insole_vec3_t b)
+static inline insole_vec3_t gain(const phi_t *phi, insole_vec3_t a, insole_vec3_t b)
 {
     insole_vec3_t turned = insole_vec3_cross(a, phi->u);
     return phi->has_bias ? insole_vec3_add(turned, insole_mat3_mul_vec(phi->G, b)) : turned;
 }
 
 /* A row of p' = p + v dt, given that of v. @return the row of p' and v, before v gains */
-INSOLE_INLINE insole_vec3_t move_row(const phi_t *phi, insole_vec3_t *pv, insole_vec3_t *pa,
+static inline insole_vec3_t move_row(const phi_t *phi, insole_vec3_t *pv, insole_vec3_t *pa,
                                      insole_vec3_t *pb, insole_vec3_t vv, insole_vec3_t va,
                                      insole_vec3_t vb)
 {
@@ -31,7 +31,7 @@ INSOLE_INLINE insole_vec3_t move_row(const phi_t *phi, insole_vec3_t *pv, insole
 }
 
 /* The rows of p; a symmetric entry takes one half from the old and one from the new column. */
-INSOLE_INLINE void move_rows(const phi_t *phi, insole_zupt_cov_t *P)
+static inline void move_rows(const phi_t *phi, insole_zupt_cov_t *P)
 {
     insole_sym3_t *pp = &P->pp, vv = P->vv;
     insole_real_t yx = P->pv.r1.x, zx = P->pv.r2.x, zy = P->pv.r2.y, dt = phi->dt;
@@ -51,7 +51,7 @@ INSOLE_INLINE void move_rows(const phi_t *phi, insole_zupt_cov_t *P)
 }
 
 /* The rows of v' = v - U a + G b. */
-INSOLE_INLINE void gain_rows(const phi_t *phi, insole_zupt_cov_t *P)
+static inline void gain_rows(const phi_t *phi, insole_zupt_cov_t *P)
 {
     insole_sym3_t *vv = &P->vv;
     const insole_mat3_t *a = &P->va, *b = &P->vb;
@@ -74,8 +74,9 @@ INSOLE_INLINE void gain_rows(const phi_t *phi, insole_zupt_cov_t *P)
     }
 }
 
-void insole_zupt_cov_propagate(insole_zupt_cov_t *P, insole_vec3_t u, const insole_mat3_t *C,
-                               insole_real_t dt_s, bool has_bias)
+INSOLE_FLAT void insole_zupt_cov_propagate(insole_zupt_cov_t *P, insole_vec3_t u,
+                                           const insole_mat3_t *C, insole_real_t dt_s,
+                                           bool has_bias)
 {
     if (has_bias) {
         phi_t phi = {u, insole_mat3_scale(*C, -dt_s), dt_s, true};
@@ -97,7 +98,7 @@ insole_zupt_error_t insole_zupt_cov_of_velocity(const insole_zupt_cov_t *P, inso
 
 /* In closed blocks, for R = r I: P_xv+ = r K_x and P_xy+ = P_xy - K_x P_vy. In the row of v no
  * difference is formed. */
-INSOLE_INLINE insole_zupt_error_t correct_velocity(insole_zupt_cov_t *P, insole_sym3_t W,
+static inline insole_zupt_error_t correct_velocity(insole_zupt_cov_t *P, insole_sym3_t W,
                                                    insole_real_t r, insole_vec3_t z, bool has_bias)
 {
     const insole_real_t minus = INSOLE_R(-1.0);
@@ -132,9 +133,9 @@ INSOLE_INLINE insole_zupt_error_t correct_velocity(insole_zupt_cov_t *P, insole_
     return dx;
 }
 
-insole_zupt_error_t insole_zupt_cov_correct_velocity(insole_zupt_cov_t *P, insole_sym3_t W,
-                                                     insole_real_t r, insole_vec3_t z,
-                                                     bool has_bias)
+INSOLE_FLAT insole_zupt_error_t insole_zupt_cov_correct_velocity(insole_zupt_cov_t *P,
+                                                                 insole_sym3_t W, insole_real_t r,
+                                                                 insole_vec3_t z, bool has_bias)
 {
     return has_bias ? correct_velocity(P, W, r, z, true) : correct_velocity(P, W, r, z, false);
 }

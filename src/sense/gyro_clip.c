@@ -76,17 +76,18 @@ static bool was_cut_off(insole_clip_peak_t *peak, insole_real_t size, insole_rea
             peak->top_radps = ZERO;
         }
     }
-    peak->last_radps = size;
     return cut;
 }
 
 /* The range is the largest top that was cut off and that no rate has gone far beyond. */
 static void learn_range(insole_gyro_clip_t *clip, insole_real_t lasting, insole_real_t cut_off_at)
 {
-    clip->largest_radps = insole_max(clip->largest_radps, lasting);
-    clip->range_radps = insole_max(clip->range_radps, cut_off_at);
-    if (DISPROOF * clip->range_radps < clip->largest_radps) {
-        clip->range_radps = ZERO;
+    if (lasting > clip->largest_radps || cut_off_at > clip->range_radps) {
+        clip->largest_radps = insole_max(clip->largest_radps, lasting);
+        clip->range_radps = insole_max(clip->range_radps, cut_off_at);
+        if (DISPROOF * clip->range_radps < clip->largest_radps) {
+            clip->range_radps = ZERO;
+        }
     }
 }
 
@@ -94,13 +95,45 @@ static bool is_clipped(insole_gyro_clip_t *clip, uint32_t axis, insole_real_t ra
                        insole_real_t dt_us)
 {
     insole_clip_peak_t *peak = &clip->peak[axis];
-    insole_real_t size = insole_abs(rate), top = peak->top_radps;
+    insole_real_t size = insole_abs(rate), cut_off_at = ZERO;
     insole_real_t lasting = insole_min(size, peak->last_radps); /* one sample alone is a spike */
-    bool cut_off = was_cut_off(peak, size, dt_us);
+    if (size > PEAK_FROM_RADPS || peak->top_radps > ZERO) {
+        insole_real_t top = peak->top_radps;
+        cut_off_at = was_cut_off(peak, size, dt_us) ? top : ZERO;
+    }
+    peak->last_radps = size;
     if (!(clip->told_radps > ZERO)) {
-        learn_range(clip, lasting, cut_off ? top : ZERO);
+        learn_range(clip, lasting, cut_off_at);
     }
     return clip->range_radps > ZERO && size >= clip->share * clip->range_radps;
+}
+
+/* Nothing to follow, to learn or to mark: what most samples are. */
+static bool is_plain(const insole_gyro_clip_t *clip, insole_vec3_t gyro)
+{
+    insole_real_t largest = insole_vec3_max_abs(gyro);
+    bool told = clip->told_radps > ZERO, known = clip->range_radps > ZERO;
+    return !clip->in_peak && largest <= PEAK_FROM_RADPS &&
+           (told || largest <= clip->largest_radps) &&
+           !(known && largest >= clip->share * clip->range_radps);
+}
+
+static void remember(insole_gyro_clip_t *clip, insole_vec3_t gyro)
+{
+    clip->peak[0].last_radps = insole_abs(gyro.x);
+    clip->peak[1].last_radps = insole_abs(gyro.y);
+    clip->peak[2].last_radps = insole_abs(gyro.z);
+}
+
+static uint8_t follow(insole_gyro_clip_t *clip, insole_vec3_t gyro, insole_real_t dt_us)
+{
+    bool x = is_clipped(clip, 0u, gyro.x, dt_us);
+    bool y = is_clipped(clip, 1u, gyro.y, dt_us);
+    bool z = is_clipped(clip, 2u, gyro.z, dt_us);
+    const insole_clip_peak_t *peak = clip->peak;
+    clip->in_peak =
+        peak[0].top_radps > ZERO || peak[1].top_radps > ZERO || peak[2].top_radps > ZERO;
+    return (uint8_t)((x ? 1u : 0u) | (y ? 2u : 0u) | (z ? 4u : 0u));
 }
 
 insole_status_t insole_gyro_clip_push(insole_gyro_clip_t *clip, insole_vec3_t gyro_radps,
@@ -109,16 +142,19 @@ insole_status_t insole_gyro_clip_push(insole_gyro_clip_t *clip, insole_vec3_t gy
     if (!clip || !axes) {
         return INSOLE_ERR_NULL;
     }
-    if (!insole_vec3_is_finite(gyro_radps) || !(dt_us >= ZERO) || !insole_is_finite(dt_us)) {
+    if (!insole_vec3_is_finite(gyro_radps) || !(dt_us >= ZERO && dt_us <= INSOLE_REAL_MAX)) {
         return INSOLE_ERR_VALUE;
     }
     if (!(dt_us > ZERO)) {
         static const insole_clip_peak_t none;
         clip->peak[0] = clip->peak[1] = clip->peak[2] = none;
+        clip->in_peak = false;
     }
-    bool x = is_clipped(clip, 0u, gyro_radps.x, dt_us);
-    bool y = is_clipped(clip, 1u, gyro_radps.y, dt_us);
-    bool z = is_clipped(clip, 2u, gyro_radps.z, dt_us);
-    *axes = (uint8_t)((x ? 1u : 0u) | (y ? 2u : 0u) | (z ? 4u : 0u));
+    *axes = 0u;
+    if (is_plain(clip, gyro_radps)) {
+        remember(clip, gyro_radps);
+    } else {
+        *axes = follow(clip, gyro_radps, dt_us);
+    }
     return INSOLE_OK;
 }

@@ -25,7 +25,15 @@ static const insole_real_t CLOCK_REACH_US = INSOLE_R(30000.0);
 static const insole_real_t BURST_INTERVAL_SHARE = INSOLE_R(0.75);
 static const insole_real_t BURST_WEIGHT = INSOLE_R(0.01);
 
+/* An interval this much shorter than that of the highest rate is still one of it. */
+static const insole_real_t INTERVAL_SHARE = INSOLE_R(0.98);
+
 const insole_screen_config_t insole_screen_defaults = {INSOLE_SCREEN_KEYS(INSOLE_CONFIG_DEFAULT)};
+
+static uint32_t microseconds(insole_real_t s)
+{
+    return (uint32_t)(s * INSOLE_R(1.0e6) + INSOLE_R(0.5));
+}
 
 insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_config_t *config)
 {
@@ -37,12 +45,10 @@ insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_
     }
     memset(screen, 0, sizeof *screen);
     screen->config = *config;
+    screen->gap_us = microseconds(config->gap_s);
+    screen->hold_us = microseconds(config->hold_s);
+    screen->least_us = microseconds(INTERVAL_SHARE / config->max_rate_hz);
     return insole_gyro_clip_init(&screen->clip, config->gyro_range_radps, config->clip_share);
-}
-
-static insole_real_t seconds(uint64_t from_us, uint64_t to_us)
-{
-    return (insole_real_t)(to_us - from_us) * INSOLE_R(1.0e-6);
 }
 
 /* ---- fields ----------------------------------------------------------------------------- */
@@ -57,8 +63,18 @@ static uint32_t hold_field(insole_real_t *value, insole_real_t last, insole_real
     return 1u;
 }
 
+/* Not true of what is no number. */
+static bool is_shorter(insole_vec3_t v, insole_real_t limit)
+{
+    return insole_vec3_norm2(v) <= insole_square(limit);
+}
+
 static bool hold_fields(insole_imu_t *imu, const insole_imu_t *last)
 {
+    if (is_shorter(imu->accel_mps2, ACCEL_LIMIT_MPS2) &&
+        is_shorter(imu->gyro_radps, GYRO_LIMIT_RADPS)) {
+        return false; /* nor is any of the fields beyond the limit */
+    }
     insole_vec3_t *a = &imu->accel_mps2, *w = &imu->gyro_radps;
     const insole_vec3_t *la = &last->accel_mps2, *lw = &last->gyro_radps;
     uint32_t held = 0u;
@@ -76,7 +92,7 @@ static bool repair_fields(insole_screen_t *s, insole_imu_t *imu)
         return true;
     }
     s->counts.not_finite++;
-    return s->held > 0u && seconds(s->good_us, imu->t_us) <= s->config.hold_s;
+    return s->held > 0u && imu->t_us - s->good_us <= s->hold_us;
 }
 
 /* ---- stamps ----------------------------------------------------------------------------- */
@@ -85,10 +101,10 @@ static bool repair_fields(insole_screen_t *s, insole_imu_t *imu)
 static bool has_jumped(const insole_screen_t *s, uint64_t t_us)
 {
     if (s->held == 1u) { /* the first of all: nothing says that it was right */
-        return !s->has_spare && seconds(t_us, s->raw_us) > s->config.gap_s;
+        return !s->has_spare && s->raw_us - t_us > s->gap_us;
     }
-    return t_us > s->raw_before_us && seconds(s->raw_before_us, s->raw_us) > s->config.gap_s &&
-           seconds(s->raw_before_us, t_us) <= s->config.gap_s;
+    return t_us > s->raw_before_us && s->raw_us - s->raw_before_us > s->gap_us &&
+           t_us - s->raw_before_us <= s->gap_us;
 }
 
 /* The stream is again as it was before the sample held back came. */
@@ -130,9 +146,12 @@ static bool is_in_time(insole_screen_t *s, uint64_t t_us)
  * dropped because the clock had been put back. */
 static bool is_after_gap(const insole_screen_t *s, uint64_t t_us)
 {
-    insole_real_t dropped_s = (insole_real_t)s->back_run * s->clock.period_us * INSOLE_R(1.0e-6);
-    return s->held > 0u &&
-           (seconds(s->raw_us, t_us) > s->config.gap_s || dropped_s > s->config.gap_s);
+    if (s->held == 0u) {
+        return false;
+    }
+    insole_real_t dropped_us =
+        s->back_run > 0u ? (insole_real_t)s->back_run * s->clock.period_us : ZERO;
+    return t_us - s->raw_us > s->gap_us || dropped_us > (insole_real_t)s->gap_us;
 }
 
 /* ---- bursts ----------------------------------------------------------------------------- */
@@ -214,6 +233,9 @@ static bool mend_spike(insole_real_t before, insole_real_t *middle, insole_real_
 static bool mend_spikes(insole_vec3_t before, insole_vec3_t *middle, insole_vec3_t after,
                         insole_real_t limit)
 {
+    if (is_shorter(insole_vec3_sub(*middle, before), limit)) {
+        return false;
+    }
     bool x = mend_spike(before.x, &middle->x, after.x, limit);
     bool y = mend_spike(before.y, &middle->y, after.y, limit);
     bool z = mend_spike(before.z, &middle->z, after.z, limit);
@@ -222,7 +244,7 @@ static bool mend_spikes(insole_vec3_t before, insole_vec3_t *middle, insole_vec3
 
 static void mend(insole_screen_t *s, const insole_imu_t *after)
 {
-    if (s->held < 2u || seconds(s->before.imu.t_us, after->t_us) > s->config.gap_s) {
+    if (s->held < 2u || after->t_us - s->before.imu.t_us > s->gap_us) {
         return;
     }
     const insole_imu_t *before = &s->before.imu;
@@ -239,7 +261,7 @@ static void mend(insole_screen_t *s, const insole_imu_t *after)
 static uint8_t clip_marks(insole_screen_t *s, const insole_imu_t *imu, bool after_gap)
 {
     bool known = s->held > 0u && !after_gap;
-    insole_real_t dt_us = known ? (insole_real_t)(imu->t_us - s->last_us) : ZERO;
+    insole_real_t dt_us = known ? (insole_real_t)(uint32_t)(imu->t_us - s->last_us) : ZERO;
     uint8_t axes = 0u;
     (void)insole_gyro_clip_push(&s->clip, imu->gyro_radps, dt_us, &axes);
     s->counts.clipped += axes != 0u ? 1u : 0u;
@@ -286,14 +308,13 @@ static insole_status_t give_mean(insole_screen_t *s, uint64_t t_us, insole_clean
 /* A sample on its way out, alone or as the last of those that fill the shortest interval. */
 static insole_status_t average(insole_screen_t *s, const insole_clean_t *c, insole_clean_t *clean)
 {
-    insole_real_t least_s = INSOLE_R(0.98) / s->config.max_rate_hz;
-    insole_real_t since_s = s->has_out ? seconds(s->out_us, c->imu.t_us) : least_s;
-    if (s->sum_count == 0u && since_s >= least_s) {
+    uint64_t since_us = s->has_out ? c->imu.t_us - s->out_us : s->least_us;
+    if (s->sum_count == 0u && since_us >= s->least_us) {
         return give(s, c, clean);
     }
-    insole_real_t weight_s = since_s - s->sum_s;
+    insole_real_t weight_s = (insole_real_t)since_us * INSOLE_R(1.0e-6) - s->sum_s;
     sum_add(s, c, insole_max(weight_s, INSOLE_R(1.0e-6)));
-    if (since_s < least_s) {
+    if (since_us < s->least_us) {
         s->counts.averaged++;
         return INSOLE_ERR_STATE;
     }

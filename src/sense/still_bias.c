@@ -25,15 +25,11 @@ insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
     }
     memset(rest, 0, sizeof *rest);
     rest->config = *config;
+    rest->block_us = (uint32_t)(config->block_s * INSOLE_R(1.0e6) + INSOLE_R(0.5));
     rest->gravity_mps2 = config->gravity_mps2;
     insole_real_t variance = insole_square(config->sigma_bias_radps);
     rest->variance_radps2 = insole_vec3(variance, variance, variance);
     return INSOLE_OK;
-}
-
-static insole_vec3_t squares(insole_vec3_t v)
-{
-    return insole_vec3(v.x * v.x, v.y * v.y, v.z * v.z);
 }
 
 static void block_begin(insole_still_block_t *block, const insole_imu_t *imu)
@@ -50,8 +46,8 @@ static void block_add(insole_still_block_t *block, const insole_imu_t *imu)
     insole_vec3_t gyro = insole_vec3_sub(imu->gyro_radps, block->gyro0_radps);
     block->accel = insole_vec3_add(block->accel, accel);
     block->gyro = insole_vec3_add(block->gyro, gyro);
-    block->accel2 = insole_vec3_add(block->accel2, squares(accel));
-    block->gyro2 = insole_vec3_add(block->gyro2, squares(gyro));
+    block->accel2 += insole_vec3_norm2(accel);
+    block->gyro2 += insole_vec3_norm2(gyro);
     block->count++;
 }
 
@@ -62,19 +58,17 @@ static insole_still_moments_t moments_of(const insole_still_block_t *b)
     insole_vec3_t gyro = insole_vec3_scale(b->gyro, per_n);
     insole_still_moments_t moments = {
         insole_vec3_add(accel, b->accel0_mps2), insole_vec3_add(gyro, b->gyro0_radps),
-        insole_vec3_sub(insole_vec3_scale(b->accel2, per_n), squares(accel)),
-        insole_vec3_sub(insole_vec3_scale(b->gyro2, per_n), squares(gyro))};
+        b->accel2 * per_n - insole_vec3_norm2(accel), b->gyro2 * per_n - insole_vec3_norm2(gyro)};
     return moments;
 }
 
 /* Variance of two blocks joined, over all axes: the same however the sensor is turned. */
-static insole_real_t joint_variance(insole_vec3_t mean_a, insole_vec3_t var_a, insole_vec3_t mean_b,
-                                    insole_vec3_t var_b)
+static insole_real_t joint_variance(insole_vec3_t mean_a, insole_real_t var_a, insole_vec3_t mean_b,
+                                    insole_real_t var_b)
 {
-    insole_vec3_t half_apart = insole_vec3_scale(insole_vec3_sub(mean_a, mean_b), INSOLE_R(0.5));
-    insole_vec3_t within = insole_vec3_middle(var_a, var_b);
-    insole_vec3_t all = insole_vec3_add(within, squares(half_apart));
-    return all.x + all.y + all.z;
+    const insole_real_t half = INSOLE_R(0.5);
+    insole_vec3_t half_apart = insole_vec3_scale(insole_vec3_sub(mean_a, mean_b), half);
+    return half * (var_a + var_b) + insole_vec3_norm2(half_apart);
 }
 
 static insole_real_t distance(insole_vec3_t a, insole_vec3_t b)
@@ -146,8 +140,7 @@ static bool fill_block(insole_still_bias_t *rest, const insole_imu_t *imu)
 {
     insole_still_block_t *b = &rest->block;
     block_add(b, imu);
-    insole_real_t length_s = (insole_real_t)(imu->t_us - b->begin_us) * INSOLE_R(1.0e-6);
-    return length_s >= rest->config.block_s && b->count > 2u;
+    return imu->t_us - b->begin_us >= rest->block_us && b->count > 2u;
 }
 
 /* The first sample of all, or the first after a gap. */

@@ -22,59 +22,73 @@ insole_status_t insole_still_window_init(insole_still_window_t *window,
         return INSOLE_ERR_VALUE;
     }
     memset(window, 0, sizeof *window);
-    window->scale = *scale;
+    window->kind = scale->kind;
     window->width = width;
+    window->gravity_mps2 = scale->gravity_mps2;
+    window->per_n = ONE / (insole_real_t)width;
+    window->accel_weight = ONE / insole_square(scale->sigma_accel_mps2);
+    window->gyro_weight = ONE / insole_square(scale->sigma_gyro_radps);
     return INSOLE_OK;
 }
 
-static insole_still_sums_t of_sample(insole_vec3_t accel, insole_vec3_t gyro)
+/* What a sample alone adds to the statistic. */
+static insole_real_t part_of(const insole_still_window_t *w, insole_vec3_t accel,
+                             insole_vec3_t gyro)
 {
-    insole_real_t accel2 = insole_vec3_norm2(accel);
-    insole_still_sums_t one = {accel, accel2, insole_sqrt(accel2), insole_vec3_norm2(gyro)};
-    return one;
-}
-
-static void add(insole_still_sums_t *sums, insole_real_t sign, const insole_still_sums_t *one)
-{
-    sums->accel = insole_vec3_add_scaled(sums->accel, sign, one->accel);
-    sums->accel2 += sign * one->accel2;
-    sums->accel_norm += sign * one->accel_norm;
-    sums->gyro2 += sign * one->gyro2;
-}
-
-static insole_real_t statistic_of(const insole_still_scale_t *c, const insole_still_sums_t *sums,
-                                  insole_real_t per_n)
-{
-    insole_real_t g = c->gravity_mps2;
-    insole_real_t accel2 = sums->accel2 * per_n;
-    insole_real_t gyro = sums->gyro2 * per_n / insole_square(c->sigma_gyro_radps);
-    insole_real_t per_var = ONE / insole_square(c->sigma_accel_mps2);
-    insole_real_t mean2 = insole_vec3_norm2(sums->accel) * insole_square(per_n);
-    switch (c->kind) {
+    switch (w->kind) {
     case INSOLE_STILL_MV:
-        return (accel2 - mean2) * per_var;
+        return w->accel_weight * insole_vec3_norm2(accel);
     case INSOLE_STILL_MAG:
-        return (accel2 - INSOLE_R(2.0) * g * sums->accel_norm * per_n + g * g) * per_var;
+        return w->accel_weight * insole_square(insole_vec3_norm(accel) - w->gravity_mps2);
     case INSOLE_STILL_ARE:
-        return gyro;
+        return w->gyro_weight * insole_vec3_norm2(gyro);
     default:
-        return (accel2 - INSOLE_R(2.0) * g * insole_sqrt(mean2) + g * g) * per_var + gyro;
+        return w->accel_weight * insole_vec3_norm2(accel) +
+               w->gyro_weight * insole_vec3_norm2(gyro);
     }
+}
+
+/* What their mean specific force adds. */
+static insole_real_t part_of_mean(const insole_still_window_t *w)
+{
+    insole_real_t g = w->gravity_mps2;
+    switch (w->kind) {
+    case INSOLE_STILL_MV:
+        return -w->accel_weight * insole_square(w->per_n) * insole_vec3_norm2(w->sums.accel);
+    case INSOLE_STILL_MAG:
+    case INSOLE_STILL_ARE:
+        return ZERO;
+    default:
+        return w->accel_weight * g *
+               (g - INSOLE_R(2.0) * w->per_n * insole_vec3_norm(w->sums.accel));
+    }
+}
+
+static void add(insole_still_sums_t *sums, const insole_still_sums_t *one)
+{
+    sums->accel = insole_vec3_add(sums->accel, one->accel);
+    sums->part += one->part;
+}
+
+static void subtract(insole_still_sums_t *sums, const insole_still_sums_t *one)
+{
+    sums->accel = insole_vec3_sub(sums->accel, one->accel);
+    sums->part -= one->part;
 }
 
 /* The window moves on by one sample; `leaving` was its oldest. */
 static void move_on(insole_still_window_t *w, const insole_still_sums_t *arriving,
                     const insole_still_sums_t *leaving)
 {
-    add(&w->fresh, ONE, arriving);
+    add(&w->fresh, arriving);
     if (++w->fresh_count == w->width) {
         static const insole_still_sums_t none;
         w->sums = w->fresh;
         w->fresh = none;
         w->fresh_count = 0u;
     } else {
-        add(&w->sums, ONE, arriving);
-        add(&w->sums, -ONE, leaving);
+        add(&w->sums, arriving);
+        subtract(&w->sums, leaving);
     }
 }
 
@@ -88,18 +102,19 @@ insole_status_t insole_still_window_push(insole_still_window_t *window, insole_v
         return INSOLE_ERR_VALUE;
     }
     insole_still_window_t *w = window;
-    insole_still_sums_t arriving = of_sample(accel_mps2, gyro_radps), leaving = w->samples[w->at];
-    w->samples[w->at] = arriving;
-    w->at = (w->at + 1u) % w->width;
+    insole_still_sums_t arriving = {accel_mps2, part_of(w, accel_mps2, gyro_radps)};
+    insole_still_sums_t *slot = &w->samples[w->at];
     if (w->count == w->width) {
-        move_on(w, &arriving, &leaving);
+        move_on(w, &arriving, slot);
     } else {
-        add(&w->sums, ONE, &arriving);
+        add(&w->sums, &arriving);
         w->count++;
     }
+    *slot = arriving;
+    w->at = w->at + 1u < w->width ? w->at + 1u : 0u;
     if (w->count < w->width) {
         return INSOLE_ERR_STATE;
     }
-    *statistic = statistic_of(&w->scale, &w->sums, ONE / (insole_real_t)w->width);
+    *statistic = w->sums.part * w->per_n + part_of_mean(w);
     return INSOLE_OK;
 }

@@ -41,6 +41,7 @@ insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
     zv->config = *config;
     zv->ring = insole_ring(INSOLE_STANCE_RING);
     zv->reach_us = microseconds(config->reach_s);
+    zv->past_us = zv->reach_us / (INSOLE_STANCE_PAST - 1u);
     zv->spread_us = microseconds(config->spread_s);
     zv->hole_us = microseconds(config->two_step_hole_s);
     zv->period_s = FIRST_PERIOD_S;
@@ -125,16 +126,23 @@ static void measure(insole_zero_velocity_t *zv)
 
 /* ---- the judgement ---------------------------------------------------------------------- */
 
+static void begin_past_block(insole_zero_velocity_t *zv)
+{
+    zv->past_at = (zv->past_at + 1u) % INSOLE_STANCE_PAST;
+    zv->past[zv->past_at] = INSOLE_REAL_MAX;
+}
+
 static void remember_past(insole_zero_velocity_t *zv, uint32_t t_us, insole_real_t statistic)
 {
-    uint32_t block_us = zv->reach_us / (INSOLE_STANCE_PAST - 1u);
-    for (uint32_t i = 0u; i < INSOLE_STANCE_PAST && t_us - zv->past_began_us >= block_us; i++) {
-        zv->past_began_us += block_us;
-        zv->past_at = (zv->past_at + 1u) % INSOLE_STANCE_PAST;
-        zv->past[zv->past_at] = INSOLE_REAL_MAX;
-    }
-    if (t_us - zv->past_began_us >= block_us) {
-        zv->past_began_us = t_us; /* after a gap */
+    if (t_us - zv->past_began_us >= zv->past_us) {
+        for (uint32_t i = 0u; i < INSOLE_STANCE_PAST && t_us - zv->past_began_us >= zv->past_us;
+             i++) {
+            zv->past_began_us += zv->past_us;
+            begin_past_block(zv);
+        }
+        if (t_us - zv->past_began_us >= zv->past_us) {
+            zv->past_began_us = t_us; /* after a gap */
+        }
     }
     zv->past[zv->past_at] = insole_min(zv->past[zv->past_at], statistic);
 }

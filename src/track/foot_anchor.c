@@ -28,6 +28,7 @@ insole_status_t insole_foot_anchor_init(insole_foot_anchor_t *anchor, insole_rea
         return INSOLE_ERR_VALUE;
     }
     memset(anchor, 0, sizeof *anchor);
+    anchor->turn = insole_turn(ZERO);
     anchor->drift_radps = drift_radps;
     anchor->t_us = t_us;
     return INSOLE_OK;
@@ -87,6 +88,7 @@ insole_status_t insole_foot_anchor_follow(insole_foot_anchor_t *anchor, insole_v
     insole_vec3_t way = insole_vec3_sub(position_n_m, anchor->anchor_n_m);
     if (way.x * way.x + way.y * way.y > insole_square(WAY_WITH_DIRECTION_M)) {
         anchor->yaw_rad = insole_wrap_pi(anchor->heading_rad - insole_atan2(way.y, way.x));
+        anchor->turn = insole_turn(anchor->yaw_rad);
     }
     anchor->strides_left -= stride_ended ? 1u : 0u;
     return INSOLE_OK;
@@ -134,11 +136,10 @@ insole_status_t insole_foot_anchor_to_map(const insole_foot_anchor_t *anchor, in
         return INSOLE_ERR_NULL;
     }
     const insole_foot_anchor_t *a = anchor;
-    insole_real_t c = insole_cos(a->yaw_rad), s = insole_sin(a->yaw_rad);
+    insole_real_t c = a->turn.cos, s = a->turn.sin;
     insole_vec3_t d = insole_vec3_sub(fix->position_m, a->anchor_n_m);
     insole_vec3_t way = insole_vec3(c * d.x - s * d.y, s * d.x + c * d.y, d.z);
-    insole_real_t age_s =
-        fix->t_us > a->t_us ? (insole_real_t)(fix->t_us - a->t_us) * INSOLE_R(1.0e-6) : ZERO;
+    insole_real_t age_s = fix->t_us > a->t_us ? insole_seconds(a->t_us, fix->t_us) : ZERO;
     insole_real_t var_yaw = a->var_rad2 + insole_square(age_s * a->drift_radps);
     var_yaw = insole_min(var_yaw, ANY_TURN_RAD2);
     turn_covariance(fix, c, s);

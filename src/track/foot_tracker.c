@@ -9,11 +9,6 @@
 static const insole_real_t BRIDGE_ACCEL_MPS2 = INSOLE_R(4.0);
 static const insole_real_t BRIDGE_GYRO_RADPS = INSOLE_R(0.7);
 
-static insole_real_t seconds(uint64_t from_us, uint64_t to_us)
-{
-    return (insole_real_t)(to_us - from_us) * INSOLE_R(1.0e-6);
-}
-
 insole_status_t insole_foot_tracker_init(insole_foot_tracker_t *tracker,
                                          const insole_foot_tracker_config_t *config)
 {
@@ -108,7 +103,7 @@ static bool stance_is_summed(insole_foot_tracker_t *t, const insole_labelled_t *
     }
     t->still_accel = insole_vec3_add(t->still_accel, s->imu.accel_mps2);
     t->still_count++;
-    return seconds(t->still_since_us, s->imu.t_us) >= t->config.align_s;
+    return insole_seconds(t->still_since_us, s->imu.t_us) >= t->config.align_s;
 }
 
 static bool align(insole_foot_tracker_t *t, const insole_labelled_t *s,
@@ -183,9 +178,9 @@ static void navigate(insole_foot_tracker_t *t, insole_labelled_t *s)
 /* True when a stride ends. */
 static bool count_stride(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
-    insole_stride_input_t in = {s->imu.t_us, t->zupt_ekf.p_m,
-                                insole_quat_turn(t->first_q, t->zupt_ekf.q),
-                                t->zupt_ekf.force_mps2.z, s->still};
+    insole_real_t yaw = s->still ? insole_quat_turn(t->first_q, t->zupt_ekf.q) : ZERO;
+    insole_stride_input_t in = {s->imu.t_us, t->zupt_ekf.p_m, yaw, t->zupt_ekf.force_mps2.z,
+                                s->still};
     bool ended = insole_stride_push(&t->strides, &in, &t->stride) == INSOLE_OK;
     if (ended) {
         t->has_stride = true;
@@ -203,12 +198,17 @@ static insole_vec3_t position_n(const insole_foot_tracker_t *t)
 
 static void make_fix(const insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t *fix)
 {
-    insole_sym3_t P = t->config.method == INSOLE_FOOT_PDR
-                          ? insole_sym3_add_diagonal(t->zupt_ekf.P.pp, t->walk.place_m2)
-                          : t->zupt_ekf.P.pp;
-    insole_fix_t in_n = {t_us, position_n(t),       t->walk.heading_rad, P.xx, P.xy, P.yy,
-                         P.zz, t->zupt_ekf.P.aa.zz, INSOLE_FIX_TRACK};
-    *fix = in_n;
+    const insole_sym3_t *P = &t->zupt_ekf.P.pp;
+    insole_real_t more = t->config.method == INSOLE_FOOT_PDR ? t->walk.place_m2 : ZERO;
+    fix->t_us = t_us;
+    fix->position_m = position_n(t);
+    fix->heading_rad = t->walk.heading_rad;
+    fix->var_x_m2 = P->xx + more;
+    fix->cov_xy_m2 = P->xy;
+    fix->var_y_m2 = P->yy + more;
+    fix->var_z_m2 = P->zz + more;
+    fix->var_heading_rad2 = t->zupt_ekf.P.aa.zz;
+    fix->state = INSOLE_FIX_TRACK;
     (void)insole_foot_anchor_to_map(&t->anchor, fix);
     if (!t->zupt_ekf.aligned) {
         fix->state = INSOLE_FIX_ALIGN;
@@ -251,7 +251,7 @@ static void bridge(insole_foot_tracker_t *t, insole_labelled_t *s)
     insole_vec3_t gyro = insole_vec3_add(ekf->last_gyro_radps, t->still_bias.gyro_bias_radps);
     s->imu.accel_mps2 = insole_vec3_middle(accel, s->imu.accel_mps2);
     s->imu.gyro_radps = insole_vec3_middle(gyro, s->imu.gyro_radps);
-    insole_real_t gap_s = seconds(ekf->t_us, s->imu.t_us);
+    insole_real_t gap_s = insole_seconds(ekf->t_us, s->imu.t_us);
     insole_real_t var_v = insole_square(BRIDGE_ACCEL_MPS2 * gap_s);
     insole_real_t var_a = insole_square(BRIDGE_GYRO_RADPS * gap_s);
     ekf->P.vv = insole_sym3_add_diagonal(ekf->P.vv, var_v);
@@ -272,7 +272,7 @@ static void begin_coast(insole_foot_tracker_t *t)
 static void coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
     insole_vec3_t way;
-    insole_real_t per_s = INSOLE_R(1.0) / seconds(t->zupt_ekf.t_us, s->imu.t_us);
+    insole_real_t per_s = INSOLE_R(1.0) / insole_seconds(t->zupt_ekf.t_us, s->imu.t_us);
     (void)insole_foot_walk_on(&t->walk, t->zupt_ekf.t_us, s->imu.t_us, &way);
     (void)insole_zupt_ekf_coast(&t->zupt_ekf, insole_vec3_scale(way, per_s),
                                 t->config.sigma_walk_mps, s->imu.t_us);
@@ -285,7 +285,7 @@ static void end_coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
     if (!align(t, s, t->config.sigma_moving_tilt_rad, &mean_accel)) {
         return;
     }
-    insole_real_t bow = insole_foot_walk_bow(&t->walk, seconds(t->stance_us, s->imu.t_us));
+    insole_real_t bow = insole_foot_walk_bow(&t->walk, insole_seconds(t->stance_us, s->imu.t_us));
     insole_quat_t turn = insole_quat_from_yaw(bow);
     t->zupt_ekf.q = insole_quat_level(insole_quat_mul(turn, t->stance_q), mean_accel);
     t->zupt_ekf.C = insole_quat_to_mat3(t->zupt_ekf.q);
@@ -298,7 +298,7 @@ static void end_coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
 /* True when the sample has been used up. */
 static bool cross_gap(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
-    insole_real_t gap_s = seconds(t->zupt_ekf.t_us, s->imu.t_us);
+    insole_real_t gap_s = insole_seconds(t->zupt_ekf.t_us, s->imu.t_us);
     t->gap_turn_rad2 += insole_square(t->config.sigma_gap_turn_rad_rts) * gap_s;
     if (t->coasting) {
         return false;

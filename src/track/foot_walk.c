@@ -30,11 +30,6 @@ insole_status_t insole_foot_walk_init(insole_foot_walk_t *walk)
     return INSOLE_OK;
 }
 
-static insole_real_t seconds(uint64_t from_us, uint64_t to_us)
-{
-    return (insole_real_t)(to_us - from_us) * INSOLE_R(1.0e-6);
-}
-
 static bool is_finite(const insole_stride_t *stride)
 {
     return insole_vec3_is_finite(stride->displacement_m) &&
@@ -54,7 +49,7 @@ insole_status_t insole_foot_walk_stride(insole_foot_walk_t *walk, const insole_s
     if (stride->end_us < stride->begin_us) {
         return INSOLE_ERR_TIME;
     }
-    insole_real_t gait_s = GAIT_PER_SWING * seconds(stride->begin_us, stride->end_us);
+    insole_real_t gait_s = GAIT_PER_SWING * insole_seconds(stride->begin_us, stride->end_us);
     insole_real_t per_s = INSOLE_R(1.0) / insole_max(gait_s, SHORTEST_GAIT_S);
     insole_real_t length_m = stride->model_length_m;
     walk->velocity_mps = insole_vec3_scale(stride->displacement_m, per_s);
@@ -97,8 +92,8 @@ insole_status_t insole_foot_walk_on(insole_foot_walk_t *walk, uint64_t from_us, 
     if (from_us < walk->ceased_us || to_us <= from_us) {
         return INSOLE_ERR_TIME;
     }
-    insole_real_t from_s = seconds(walk->ceased_us, from_us);
-    insole_real_t to_s = seconds(walk->ceased_us, to_us);
+    insole_real_t from_s = insole_seconds(walk->ceased_us, from_us);
+    insole_real_t to_s = insole_seconds(walk->ceased_us, to_us);
     insole_real_t walked_s = insole_min(to_s, WALK_ON_S) - insole_min(from_s, WALK_ON_S);
     insole_real_t bow = insole_foot_walk_bow(walk, INSOLE_R(0.5) * (from_s + to_s));
     insole_vec3_t ahead = insole_quat_rotate(insole_quat_from_yaw(bow), walk->velocity_mps);

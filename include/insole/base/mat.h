@@ -89,14 +89,14 @@ static inline insole_vec3_t insole_mat3_mul_vec_t(insole_mat3_t a, insole_vec3_t
 }
 
 /** A B */
-INSOLE_INLINE insole_mat3_t insole_mat3_mul(insole_mat3_t a, insole_mat3_t b)
+static inline insole_mat3_t insole_mat3_mul(insole_mat3_t a, insole_mat3_t b)
 {
     return insole_mat3_rows(insole_mat3_mul_vec_t(b, a.r0), insole_mat3_mul_vec_t(b, a.r1),
                             insole_mat3_mul_vec_t(b, a.r2));
 }
 
 /** A B' */
-INSOLE_INLINE insole_mat3_t insole_mat3_mul_t(insole_mat3_t a, insole_mat3_t b)
+static inline insole_mat3_t insole_mat3_mul_t(insole_mat3_t a, insole_mat3_t b)
 {
     return insole_mat3_rows(insole_mat3_mul_vec(b, a.r0), insole_mat3_mul_vec(b, a.r1),
                             insole_mat3_mul_vec(b, a.r2));
@@ -199,7 +199,7 @@ static inline insole_vec3_t insole_sym3_mul_vec(insole_sym3_t a, insole_vec3_t v
 }
 
 /** M S with S symmetric. */
-INSOLE_INLINE insole_mat3_t insole_mat3_mul_sym(insole_mat3_t m, insole_sym3_t s)
+static inline insole_mat3_t insole_mat3_mul_sym(insole_mat3_t m, insole_sym3_t s)
 {
     return insole_mat3_rows(insole_sym3_mul_vec(s, m.r0), insole_sym3_mul_vec(s, m.r1),
                             insole_sym3_mul_vec(s, m.r2));

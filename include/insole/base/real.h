@@ -26,11 +26,12 @@ typedef float insole_real_t;
 #define INSOLE_REAL_EPSILON FLT_EPSILON
 #endif
 
-/** Inlined even where a compiler would rather not: what a constant argument makes small. */
+/** Before a function whose callees are to be inlined even where a compiler would rather not: no
+ *  block is copied on its way from one step to the next. */
 #ifdef __GNUC__
-#define INSOLE_INLINE static inline __attribute__((always_inline))
+#define INSOLE_FLAT __attribute__((flatten))
 #else
-#define INSOLE_INLINE static inline
+#define INSOLE_FLAT
 #endif
 
 #define INSOLE_PI INSOLE_R(3.14159265358979323846)

@@ -15,7 +15,8 @@
 /** From one time stamp to a later one. */
 static inline insole_real_t insole_seconds(uint64_t from_us, uint64_t to_us)
 {
-    return (insole_real_t)(to_us - from_us) * INSOLE_R(1.0e-6);
+    uint64_t us = to_us - from_us; /* half of it is converted faster, and is usual */
+    return (us <= UINT32_MAX ? (insole_real_t)(uint32_t)us : (insole_real_t)us) * INSOLE_R(1.0e-6);
 }
 
 /** A place on the map, or a way on it. */

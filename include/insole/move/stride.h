@@ -46,7 +46,7 @@ extern const insole_stride_config_t insole_stride_defaults;
 typedef struct {
     uint64_t t_us;
     insole_vec3_t position_m;          /**< n */
-    insole_real_t yaw_rad;             /**< of the foot */
+    insole_real_t yaw_rad;             /**< of the foot; looked at while it is still */
     insole_real_t vertical_force_mps2; /**< specific force along n-frame z */
     bool still;
 } insole_stride_input_t;

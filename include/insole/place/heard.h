@@ -20,7 +20,11 @@
 extern "C" {
 #endif
 
-enum { INSOLE_HEARD_MAX = 512 }; /**< what is beyond counts as unheard: room for a crowded mall */
+/** What is beyond counts as unheard: room for a crowded mall, at six bytes each. A firmware for a
+ *  small site may set less when it compiles the library, and then itself. */
+#ifndef INSOLE_HEARD_MAX
+#define INSOLE_HEARD_MAX 512
+#endif
 
 typedef struct {
     uint32_t count;

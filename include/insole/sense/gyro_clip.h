@@ -36,6 +36,7 @@ typedef struct {
     insole_real_t range_radps;   /**< told, or the largest top that was cut off; 0 = none yet */
     insole_real_t largest_radps; /**< rate that any axis had for two samples */
     insole_clip_peak_t peak[3];
+    bool in_peak; /**< any axis is in an excursion */
 } insole_gyro_clip_t;
 
 /** @param range_radps 0 to 100; 0 = to be recognised

@@ -86,6 +86,7 @@ typedef struct {
 typedef struct {
     insole_screen_config_t config;
     insole_screen_counts_t counts;
+    uint32_t gap_us, hold_us, least_us; /**< settings; the shortest interval that goes out */
     insole_even_clock_t clock;
     insole_clean_t before, pending; /**< `pending` waits for its successor */
     uint64_t raw_before_us, raw_us; /**< their stamps as they came */

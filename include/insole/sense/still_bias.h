@@ -60,17 +60,19 @@ typedef struct {
     uint64_t begin_us;
     insole_vec3_t accel0_mps2, gyro0_radps;
     insole_vec3_t accel, gyro;   /**< sums of differences to the first sample */
-    insole_vec3_t accel2, gyro2; /**< sums of their squares, per axis */
+    insole_real_t accel2, gyro2; /**< sums of their squares, all axes */
     uint32_t count;
 } insole_still_block_t;
 
-/** Means and variances per axis over one block. */
+/** Means over one block and variances, those of all axes together. */
 typedef struct {
-    insole_vec3_t accel_mps2, gyro_radps, var_accel, var_gyro;
+    insole_vec3_t accel_mps2, gyro_radps;
+    insole_real_t var_accel, var_gyro;
 } insole_still_moments_t;
 
 typedef struct {
     insole_still_bias_config_t config;
+    uint32_t block_us;
     insole_vec3_t gyro_bias_radps;
     insole_vec3_t variance_radps2; /**< of the bias, per axis */
     insole_real_t gravity_mps2;

@@ -44,14 +44,16 @@ typedef struct {
 /** What one sample adds to the sums, and the sums. */
 typedef struct {
     insole_vec3_t accel;
-    insole_real_t accel2, accel_norm, gyro2;
+    insole_real_t part; /**< of the statistic, what does not depend on the mean */
 } insole_still_sums_t;
 
 typedef struct {
-    insole_still_scale_t scale;
-    uint32_t width; /**< of the window [samples] */
-    uint32_t count; /**< samples in it */
-    uint32_t at;    /**< slot of the next sample */
+    insole_still_kind_t kind;
+    insole_real_t gravity_mps2, accel_weight, gyro_weight; /**< g, 1 / sa^2, 1 / sw^2 */
+    insole_real_t per_n;                                   /**< 1 / width */
+    uint32_t width;                                        /**< of the window [samples] */
+    uint32_t count;                                        /**< samples in it */
+    uint32_t at;                                           /**< slot of the next sample */
     insole_still_sums_t samples[INSOLE_STILL_WINDOW];
     insole_still_sums_t sums;  /**< over the window */
     insole_still_sums_t fresh; /**< summed anew; takes over when full: rounding cannot gather */

@@ -112,6 +112,7 @@ typedef struct {
     insole_stance_slot_t slots[INSOLE_STANCE_RING];
     uint64_t newest_us;
     uint32_t reach_us, spread_us, hole_us; /**< settings in microseconds */
+    uint32_t past_us;                      /**< length of a block of the past */
     uint32_t half;                         /**< half window [samples]; 0 until the rate is known */
     uint32_t fed;      /**< running number of the next slot that the window is to take */
     uint32_t measured; /**< running number of the next slot whose statistic is to be formed */

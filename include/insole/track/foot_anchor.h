@@ -27,6 +27,7 @@ extern "C" {
 typedef struct {
     insole_vec3_t anchor_n_m, anchor_m_m;
     insole_real_t yaw_rad;     /**< from n to m */
+    insole_turn_t turn;        /**< by the same angle */
     insole_real_t var_m2;      /**< of the anchor's place, each axis */
     insole_real_t var_rad2;    /**< of the turn, at t_us */
     insole_real_t drift_radps; /**< 1-sigma by which n may turn since */
