@@ -10,9 +10,9 @@
 #define AIRCR_KEY   0x05FA0000u
 #define SYSRESETREQ 4u
 
-/* By the linker script. */
-extern const char code_begin[], code_end[];
-extern const uint32_t stack_bottom[], stack_top[];
+/* By the linker script; the address of a symbol ..._bytes is the size itself. */
+extern const char code_begin[], code_bytes[], stack_bytes[];
+extern const uint32_t stack_bottom[];
 
 void core_interrupt_on(uint32_t number)
 {
@@ -36,14 +36,14 @@ void core_reset(void)
 
 uint32_t core_image(void)
 {
-    return insole_crc32(0u, code_begin, (size_t)(code_end - code_begin));
+    return insole_crc32(0u, code_begin, (size_t)code_bytes);
 }
 
 uint32_t core_stack_used(void)
 {
-    const uint32_t *lowest = stack_bottom;
-    while (lowest < stack_top && *lowest == STARTUP_PAINT) {
-        lowest++;
+    uint32_t words = (uint32_t)stack_bytes / 4u, unused = 0u;
+    while (unused < words && stack_bottom[unused] == STARTUP_PAINT) {
+        unused++;
     }
-    return (uint32_t)((const char *)stack_top - (const char *)lowest);
+    return 4u * (words - unused);
 }

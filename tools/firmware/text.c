@@ -17,10 +17,10 @@ static void write_digits(uint32_t number, uint32_t base, uint32_t least)
 {
     char text[DIGITS];
     uint32_t count = 0u;
-    while (count < least || number != 0u) {
+    do {
         text[count++] = "0123456789abcdef"[number % base];
         number /= base;
-    }
+    } while (count < least || number != 0u);
     while (count > 0u) {
         board_write(text[--count]);
     }
