@@ -113,8 +113,7 @@ insole_status_t insole_foot_fusion_ranges(insole_foot_fusion_t *fusion,
 
 static insole_spot_t foot_n(const insole_foot_fusion_t *f)
 {
-    insole_spot_t n_m = {f->foot.zupt_ekf.p_m.x, f->foot.zupt_ekf.p_m.y};
-    return n_m;
+    return insole_spot(f->foot.zupt_ekf.p_m.x, f->foot.zupt_ekf.p_m.y);
 }
 
 /* The cloud's mean, moved on by what the foot has gone since. */
@@ -197,8 +196,7 @@ static void begin_after_gap(insole_foot_fusion_t *f, const insole_fix_t *foot,
 {
     insole_fix_t fix = *foot;
     fix_by_particles(f, &fix);
-    insole_real_t known_m2 = insole_max(fix.var_x_m2, fix.var_y_m2);
-    begin_at(f, fix, known_m2 + lost.m2, f->particles.fix.offset_rad,
+    begin_at(f, fix, insole_max(fix.var_x_m2, fix.var_y_m2) + lost.m2, f->particles.fix.offset_rad,
              insole_sqrt(f->particles.fix.var_offset_rad2 + lost.rad2));
     f->doubt = lost.m2 > insole_square(DOUBT_M) ? DOUBT_STRIDES : 0u;
 }
@@ -283,7 +281,6 @@ static bool is_good(const insole_foot_fusion_t *f, insole_real_t var_m2)
 static void end_work(insole_foot_fusion_t *f)
 {
     const insole_cloud_fix_t *cloud = &f->particles.fix;
-    insole_fusion_strides_done(&f->strides);
     if (f->doubt > 0u && f->news.has_stride) {
         f->doubt = is_good(f, cloud->var_x_m2 + cloud->var_y_m2) ? f->doubt - 1u : DOUBT_STRIDES;
     }
@@ -297,6 +294,9 @@ bool insole_foot_fusion_work(insole_foot_fusion_t *fusion, uint32_t particles)
     insole_cloud_t cloud = insole_fusion_cloud(&fusion->memory);
     fusion->working =
         insole_particle_filter_work(&fusion->particles, &cloud, fusion->building, particles);
+    if (insole_particle_filter_has_settled(&fusion->particles)) {
+        insole_fusion_strides_done(&fusion->strides);
+    }
     if (!fusion->working) {
         end_work(fusion);
     }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Each gate must refuse what it is there to refuse, and let pass what is right."""
+import re
 import shutil
 import subprocess
 import tempfile
@@ -8,6 +9,7 @@ from pathlib import Path
 
 import arm
 import common
+import images
 import includes
 import ledger
 import paths
@@ -317,6 +319,35 @@ class CortexM(Scratch):
                              ("int f(int a) { return printf(\"%d\", a); }", "printf")):
             headers = "#include <math.h>\n#include <stdio.h>\n#include <stdlib.h>\n"
             self.assert_refused(symbols.check(self.archive(headers + code)), f"needs {symbol}")
+
+    def image_problems(self, code):
+        """Of an image of that code beside an empty library."""
+        source = self.write("image.c", code + "\nvoid reset(void) { use(3); }\n")
+        made = self.write("tools/firmware/CMakeFiles/shoe_board.dir/image.c.obj", "")
+        arm.tool("gcc", *ARM_FLAGS, "-c", source, "-o", made)
+        library = self.archive("int nothing;\n")
+        (self.root / "src/libinsole.a").write_bytes(library.read_bytes())
+        image = self.write("bin/shoe_board", "")
+        arm.tool("gcc", *ARM_FLAGS, "-nostartfiles", "-Ttext=0", "-Wl,-ereset,--gc-sections",
+                 made, "-o", image)
+        allowed = self.write("allowed.csv", "symbol,why\nmemset,zero\n" + "".join(
+            f"{name},linker\n" for name in images.defined(image)
+            if re.match(r"_|end$", name) and not name.startswith("__aeabi")))
+        return images.check(self.root, allowed)
+
+    def test_an_image_of_its_own_and_allowed_code_passes(self):
+        code = ("#include <string.h>\nvoid use(unsigned n);\nstatic volatile char a[40];\n"
+                "void use(unsigned n) { memset((char *)a, 7, n); }\n")
+        self.assertEqual(self.image_problems(code), [])
+
+    def test_doubles_in_an_image_are_found(self):
+        code = ("void use(unsigned n);\nvolatile double a;\n"
+                "void use(unsigned n) { a = a * (double)n; }\n")
+        problems = "\n".join(self.image_problems(code))
+        self.assertIn("shoe_board: __aeabi_dmul comes from outside", problems)
+
+    def test_a_build_without_images_is_no_proof(self):
+        self.assert_refused(images.check(self.root), "no images of devices")
 
     def test_stack_adds_up_along_calls(self):
         code = ("void use(char *a);\nvoid use(char *a) { *(volatile char *)a = 1; }\n"

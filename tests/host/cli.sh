@@ -84,7 +84,7 @@ printf 'imu,0,1,2\n' >bad.csv
 
 run --version; status_is 0; has out 'insole '; empty err
 run --help; status_is 0; empty err
-for command in replay score compare calibrate config plan pack radiomap train-carry; do
+for command in replay score compare draw calibrate config plan pack stream radiomap train-carry; do
     has out "  $command "
     run "$command" --help; status_is 0; empty err; has out "insole $command"; has out 'Options'
     run help "$command"; status_is 0; has out "insole $command"
@@ -97,7 +97,7 @@ refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' xyzzy
 refuses 2 'insole: unknown command xyzzy: `insole --help` lists them' help xyzzy
 
 # No line of help is too wide for a terminal of 100 columns.
-for command in replay score compare calibrate config plan pack radiomap train-carry files; do
+for command in replay score compare draw calibrate config plan pack stream radiomap train-carry files; do
     run help "$command"
     [ "$(awk 'length > 100' out | wc -l)" -eq 0 ] || fail 'lines of more than 100 columns'
 done
@@ -571,6 +571,35 @@ run pack --radiomap surveyed/radiomap.csv --out -; status_is 0
 has out 'extern const insole_radio_map_t site_map;'; has out '    "c",'; lacks out 'site_aps['; lacks out site_plan
 refuses 1 'aps.csv:1: header has no column mean_dbm: expected x,y,id,mean_dbm,std_dbm,count, of which x,y,id,mean_dbm must be there' \
     pack --radiomap aps.csv --out site.c
+
+# ---- stream and draw: what devices are told and say ------------------------------------------
+
+refuses 2 'insole stream: no log: expected files, folders or - for standard input' stream --out a.bin
+refuses 2 'insole stream: no --out: expected --out FILE' stream walk.csv
+refuses 2 'insole stream: --reset soon: expected seconds such as 12.5' \
+    stream walk.csv --reset soon --out a.bin
+refuses 2 'insole stream: --batch 16: expected a whole number from 1 to 15' \
+    stream walk.csv --batch 16 --out a.bin
+refuses 2 'insole stream: --every 0: expected a whole number from 1 to 65535' \
+    stream walk.csv --every 0 --out a.bin
+refuses 2 'insole stream: --out walk.csv would overwrite what is read' stream walk.csv --out walk.csv
+refuses 1 'bad.csv:1: too few fields: expected imu,t,ax,ay,az,gx,gy,gz' stream bad.csv --out a.bin
+run stream walk.csv --out walk.bin
+status_is 0; empty out; has err 'readings, 0 scans, 0 ranges'
+[ "$(od -An -tx1 -N3 walk.bin)" = ' a5 48 24' ] || fail 'a stream does not begin with a head'
+run stream walk.csv --accel-range 1 --out a.bin; status_is 0; has err '  clipped: '
+printf 'rss,1,lobby,-50\nrss,1,nowhere,-60\n' >heard.csv
+run stream walk.csv heard.csv --aps aps.csv --out a.bin; status_is 0; has err ' 1 scans,'
+run stream walk.csv heard.csv --out a.bin; status_is 0; has err ' 0 scans,'
+refuses 2 'insole draw: expected one to 6 tracks' draw --out a.svg
+refuses 2 'insole draw: no --out: expected --out FILE' draw loop.csv
+refuses 2 'insole draw: --out loop.csv would overwrite what is read' draw loop.csv --out loop.csv
+refuses 1 'walk.csv: holds no place: expected a header such as t,x,y or lines truth,t,x,y[,z]' \
+    draw walk.csv --out a.svg
+[ ! -e a.svg ] || fail 'a refusal has left a file'
+run draw loop.csv --plan plan.csv --aps aps.csv --truth loop.csv --out a.svg
+status_is 0; empty out; empty err; has a.svg '>lobby<'; has a.svg 'rms 0.00 m'
+run draw loop.csv one.csv --out -; status_is 0; has out '>one.csv<'; has out '</svg>'
 printf 'wall,5,10,0,10,4\n' >walls.csv
 for call in "pack --plan walls.csv --out site.c" "replay walk.csv --plan walls.csv"; do
     refuses 1 'walls.csv: no outline: expected a ring around where one can walk' $call

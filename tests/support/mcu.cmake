@@ -1,17 +1,40 @@
 # SPDX-License-Identifier: MIT
-# The test mcu.build: library and bench for a Cortex-M4F. What looks at the result needs the fixture
-# `mcu` and finds it in INSOLE_MCU_BUILD, which is not set where the compiler is missing.
+# The tests mcu.build_CORE: library, bench and images of devices for a Cortex-M. What looks at the
+# results needs the fixture mcu_CORE and finds them in INSOLE_MCU_BUILD_CORE, which is not set where
+# the compiler is missing; those of the Cortex-M4F, for gates and bench, also by the names `mcu` and
+# INSOLE_MCU_BUILD.
 find_program(INSOLE_MCU_COMPILER arm-none-eabi-gcc)
-if(INSOLE_MCU_COMPILER)
-  set(INSOLE_MCU_BUILD ${PROJECT_BINARY_DIR}/m4)
-  add_test(NAME mcu.build COMMAND ${CMAKE_CTEST_COMMAND}
-    --build-and-test ${PROJECT_SOURCE_DIR} ${INSOLE_MCU_BUILD}
-    --build-generator ${CMAKE_GENERATOR} --build-noclean
-    --build-options -DCMAKE_TOOLCHAIN_FILE=${PROJECT_SOURCE_DIR}/tools/cmake/cortex-m4.cmake)
-  set_tests_properties(mcu.build PROPERTIES FIXTURES_SETUP mcu)
-else()
-  add_test(NAME mcu.build COMMAND ${CMAKE_COMMAND} -E echo
-    "SKIPPED: arm-none-eabi-gcc is not installed, nothing is tried on a Cortex-M")
-  set_tests_properties(mcu.build PROPERTIES SKIP_REGULAR_EXPRESSION SKIPPED)
+find_package(Python3 COMPONENTS Interpreter)
+
+# Images have the tables of a building, which mcu/ lets the program make, and compute in float.
+set(INSOLE_MCU_SITE "")
+if(TARGET insole_program AND TARGET insole_sim AND Python3_FOUND AND NOT INSOLE_DOUBLE)
+  set(INSOLE_MCU_SITE ${PROJECT_BINARY_DIR}/mcu/site.c)
 endif()
-set_tests_properties(mcu.build PROPERTIES LABELS mcu)
+
+function(insole_mcu_build core) # FIXTURES... [OPTIONS ...]
+  cmake_parse_arguments(PARSE_ARGV 1 mcu "" "" "FIXTURES;OPTIONS")
+  set(name mcu.build_${core})
+  if(INSOLE_MCU_COMPILER)
+    set(build ${PROJECT_BINARY_DIR}/${core})
+    set(INSOLE_MCU_BUILD_${core} ${build} PARENT_SCOPE)
+    add_test(NAME ${name} COMMAND ${CMAKE_CTEST_COMMAND}
+      --build-and-test ${PROJECT_SOURCE_DIR} ${build}
+      --build-generator ${CMAKE_GENERATOR} --build-noclean
+      --build-options -DCMAKE_TOOLCHAIN_FILE=${PROJECT_SOURCE_DIR}/tools/cmake/cortex-${core}.cmake
+        -DINSOLE_FIRMWARE_SITE=${INSOLE_MCU_SITE} ${mcu_OPTIONS})
+    set_tests_properties(${name} PROPERTIES FIXTURES_SETUP "${mcu_FIXTURES}" TIMEOUT 900)
+  else()
+    add_test(NAME ${name} COMMAND ${CMAKE_COMMAND} -E echo
+      "SKIPPED: arm-none-eabi-gcc is not installed, nothing is tried on a Cortex-M")
+    set_tests_properties(${name} PROPERTIES SKIP_REGULAR_EXPRESSION SKIPPED)
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS mcu)
+endfunction()
+
+insole_mcu_build(m4 FIXTURES mcu mcu_m4)
+set(INSOLE_MCU_BUILD ${INSOLE_MCU_BUILD_m4})
+if(INSOLE_MCU_SITE)
+  insole_mcu_build(m7 FIXTURES mcu_m7 OPTIONS -DINSOLE_BUILD_TESTS=OFF)
+  insole_mcu_build(m33 FIXTURES mcu_m33 OPTIONS -DINSOLE_BUILD_TESTS=OFF)
+endif()

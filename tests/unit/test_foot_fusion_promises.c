@@ -106,6 +106,27 @@ START_TEST(in_slices_or_as_a_whole)
 }
 END_TEST
 
+/* A row in the middle of the work is made of the cloud before or of the one after, each with the
+ * way since: never of one with the way of the other, which is a stride. */
+START_TEST(no_row_leaps_while_work_is_left)
+{
+    const uint32_t slices[] = {40, 70, 150};
+    double worst_m = 0.0;
+    walk_round(1u);
+    fusion_case_t c = everything();
+    uint32_t count = run_reference(&c);
+    c.slice = slices[_i];
+    run_case(&c);
+    ck_assert_uint_eq(fix_count, count);
+    for (uint32_t i = 0; i < count; i++) {
+        worst_m = fmax(worst_m, hypot((double)(fixes[i].position_m.x - reference[i].position_m.x),
+                                      (double)(fixes[i].position_m.y - reference[i].position_m.y)));
+    }
+    ck_assert_msg(worst_m < 0.7, "%g m, half a stride is 0.7 m", worst_m);
+    ck_assert_msg(worst_m > 0.0, "the slices are not late at all");
+}
+END_TEST
+
 /* Copied in the middle of a stride's work, its memory with it, both go on alike. */
 START_TEST(a_copy_goes_on_bit_for_bit)
 {
@@ -493,6 +514,7 @@ Suite *insole_suite(void)
     suite_add(suite, "seeds", equal_seeds_give_equal_bits_others_do_not);
     suite_add_loop(suite, "prefix", fixes_of_a_prefix_are_a_prefix_of_the_fixes, 5);
     suite_add(suite, "slices", in_slices_or_as_a_whole);
+    suite_add_loop(suite, "no leaps", no_row_leaps_while_work_is_left, 3);
     suite_add_loop(suite, "copy", a_copy_goes_on_bit_for_bit, 10);
     suite_add_loop(suite, "starved", starved_it_never_blocks, sizeof slow / sizeof slow[0]);
     suite_add(suite, "spread work", work_may_be_spread_over_the_stride);

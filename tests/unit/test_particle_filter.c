@@ -612,6 +612,30 @@ static void run_eventful(uint32_t count, uint32_t in_slices_of)
     eventful_walk();
 }
 
+/* The fix changes once in the work of a stride, when it has settled, and not after that. */
+START_TEST(it_has_settled_as_soon_as_its_fix_is_the_new_one)
+{
+    uint32_t late = 0u;
+    begin_world(81u, 0.0, 0.0, 0.0);
+    begin_filter(&insole_particle_filter_defaults, N);
+    start(walk[0].x, walk[0].y, 0.3, 0.0, 0.1);
+    for (int k = 1; k <= 30; k++) {
+        const insole_cloud_fix_t before = filter.fix;
+        insole_evidence_t news = stride_of(k);
+        hear(&news, k);
+        begin(&news);
+        ck_assert(!insole_particle_filter_has_settled(&filter));
+        while (insole_particle_filter_work(&filter, &cloud, &radio.building, 20)) {
+            bool is_new = memcmp(&before, &filter.fix, sizeof before) != 0;
+            ck_assert_int_eq(insole_particle_filter_has_settled(&filter), is_new);
+            late += is_new ? 1u : 0u;
+        }
+        ck_assert(insole_particle_filter_has_settled(&filter));
+    }
+    ck_assert_uint_gt(late, 0u); /* work was left after it */
+}
+END_TEST
+
 static insole_particle_filter_t whole_filter;
 static insole_particle_t whole_particles[N];
 static insole_spot_t whole_past[N * PAST];
@@ -1111,6 +1135,7 @@ Suite *insole_suite(void)
     suite_add(suite, "one wrong stride", it_recovers_from_one_wrong_stride);
     suite_add(suite, "start beside", a_start_beside_the_building);
     suite_add(suite, "nobody can be there", a_start_where_nobody_can_be);
+    suite_add(suite, "has settled", it_has_settled_as_soon_as_its_fix_is_the_new_one);
     suite_add(suite, "slices", sliced_or_whole_the_bits_are_the_same);
     suite_add(suite, "memory", five_hundred_particles_fit_in_16_kilobytes);
     suite_add_loop(suite, "walls by node", walls_weaken_the_radio_by_node_not_by_particle, 2);

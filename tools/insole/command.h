@@ -18,6 +18,6 @@ typedef struct {
 
 extern const command_t command_replay, command_score, command_compare, command_simulate,
     command_reproduce, command_calibrate, command_config, command_plan, command_pack,
-    command_radiomap, command_train_carry;
+    command_radiomap, command_stream, command_draw, command_train_carry;
 
 #endif

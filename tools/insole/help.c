@@ -10,8 +10,8 @@ static const command_t *const commands[] = {
 #ifdef INSOLE_HOST_HAS_SIMULATOR
     &command_simulate, &command_reproduce,
 #endif
-    &command_compare,  &command_calibrate, &command_config,      &command_plan,
-    &command_pack,     &command_radiomap,  &command_train_carry, NULL};
+    &command_compare,  &command_calibrate, &command_config,   &command_plan,        &command_pack,
+    &command_stream,   &command_draw,      &command_radiomap, &command_train_carry, NULL};
 
 const command_t *const *help_commands(void)
 {

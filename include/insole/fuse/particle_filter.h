@@ -128,6 +128,15 @@ insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
 bool insole_particle_filter_work(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
                                  const insole_building_t *building, uint32_t particles);
 
+/** Has all that was told come into `fix`? It has before the last of the work is done: the cloud may
+ *  yet be drawn anew from itself. */
+static inline bool insole_particle_filter_has_settled(const insole_particle_filter_t *filter)
+{
+    return filter->has_fix &&
+           (filter->phase == INSOLE_PARTICLES_IDLE || filter->phase == INSOLE_PARTICLES_RESAMPLE ||
+            filter->phase == INSOLE_PARTICLES_FINISH);
+}
+
 /** How much likelier the last scans are where they point than where the cloud is, in logarithms:
  *  > 0 casts doubt on the cloud. */
 insole_real_t insole_particle_filter_misfit(const insole_particle_filter_t *filter);
