@@ -231,6 +231,7 @@ static void find_place(const insole_auto_start_t *start, insole_real_t concentra
     answer->spot = insole_spot_add(middle, lever);
     answer->begin = insole_spot_sub(middle, insole_turn_way(turn, middle_way));
     answer->cov_m2 = insole_sym2_add(cov, insole_sym2_circle(per + start->drift_m2));
+    answer->shared_m2 = start->shared.one * per;
 }
 
 /* The paper's answer in place of ours, and the difference of both in the covariances. */

@@ -290,10 +290,18 @@ static insole_status_t begin_state(void *state, const insole_step_filter_begin_t
     if (!begin) {
         return INSOLE_ERR_NULL;
     }
+    insole_step_cloud_t *cloud = state;
+    if (!cloud) {
+        return INSOLE_ERR_NULL;
+    }
     const insole_step_origin_t origin = {
-        begin->t_us,      begin->spot, begin->cov_m2, begin->offset_rad, begin->var_offset_rad2,
+        begin->t_us,
+        begin->spot,
+        insole_step_filter_less_bias(begin, cloud->filter.config.bias_sigma_m),
+        begin->offset_rad,
+        begin->var_offset_rad2,
         begin->from_radio};
-    return insole_step_cloud_start(state, &origin);
+    return insole_step_cloud_start(cloud, &origin);
 }
 
 static insole_status_t step_state(void *state, uint64_t t_us, const insole_pace_t *pace)

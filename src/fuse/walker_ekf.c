@@ -356,10 +356,17 @@ static insole_status_t begin_state(void *state, const insole_step_filter_begin_t
     if (!begin) {
         return INSOLE_ERR_NULL;
     }
-    const insole_walker_start_t start = {
-        begin->t_us,      begin->spot, begin->cov_m2, begin->offset_rad, begin->var_offset_rad2,
-        begin->from_radio};
-    return insole_walker_ekf_start(state, &start);
+    insole_walker_ekf_t *walker = state;
+    if (!walker) {
+        return INSOLE_ERR_NULL;
+    }
+    const insole_walker_start_t start = {begin->t_us,
+                                         begin->spot,
+                                         insole_step_filter_less_bias(begin, walker->config.bias_m),
+                                         begin->offset_rad,
+                                         begin->var_offset_rad2,
+                                         begin->from_radio};
+    return insole_walker_ekf_start(walker, &start);
 }
 
 static insole_status_t step_state(void *state, uint64_t t_us, const insole_pace_t *pace)

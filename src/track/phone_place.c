@@ -185,7 +185,8 @@ static insole_status_t begin_by_fixes(insole_phone_place_t *p, const insole_spot
     bool directs = found.var_offset_rad2 <= insole_square(p->config.direct_sigma_rad);
     if (found.ready || (directs && learns_offset(p))) {
         const insole_step_filter_begin_t at = {
-            fix->t_us, found.spot, found.cov_m2, found.offset_rad, found.var_offset_rad2, true};
+            fix->t_us, found.spot,     found.cov_m2, found.offset_rad, found.var_offset_rad2,
+            true,      found.shared_m2};
         return begin(p, &at);
     }
     return INSOLE_OK;
@@ -240,7 +241,8 @@ insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_u
         insole_spot_cov(insole_sym2_add(at.cov_m2, insole_sym2_circle(way_m2))),
         at.offset_rad,
         insole_min(at.var_offset_rad2 + turn_rad2, INSOLE_HEADING_MOST_R2),
-        false};
+        false,
+        ZERO};
     return begin(place, &anew);
 }
 

@@ -99,6 +99,7 @@ typedef struct {
 typedef struct {
     insole_spot_t spot; /**< m, where the walker is now */
     insole_sym2_t cov_m2;
+    insole_real_t shared_m2;       /**< of it, by what the newest fix is wrong as well */
     insole_real_t offset_rad;      /**< heading in m less heading in n */
     insole_real_t var_offset_rad2; /**< up to pi^2 / 3: not known */
     insole_spot_t begin;           /**< m, where the first fix was heard */

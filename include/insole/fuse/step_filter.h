@@ -6,7 +6,7 @@
  *      static insole_step_fusion_t fusion;
  *      insole_step_fusion_init(&fusion, &insole_step_fusion_defaults);
  *      insole_step_filter_t filter = {&insole_step_ekf_calls, &fusion};
- *      insole_step_filter_begin_t begin = {t_us, spot, cov_m2, offset_rad, var_offset_rad2, false};
+ *      insole_step_filter_begin_t begin = {t_us, spot, cov_m2, offset_rad, var_offset_rad2};
  *      filter.calls->start(filter.state, &begin);
  *
  *  All return what the calls they stand for return.
@@ -30,7 +30,17 @@ typedef struct {
     insole_real_t offset_rad;      /**< heading in m less heading in n */
     insole_real_t var_offset_rad2; /**< pi^2 / 3 and more: not known */
     bool from_radio;               /**< it errs as the next fixes will */
+    insole_real_t shared_m2;       /**< of each variance in cov_m2: by what they will err as well */
 } insole_step_filter_begin_t;
+
+/** The covariance of a start for a filter that has a bias of the fixes of its own, to add it. */
+static inline insole_sym2_t insole_step_filter_less_bias(const insole_step_filter_begin_t *begin,
+                                                         insole_real_t sigma_bias_m)
+{
+    insole_real_t less_m2 = insole_min(begin->shared_m2, insole_square(sigma_bias_m));
+    return insole_spot_cov(
+        insole_sym2_add(begin->cov_m2, insole_sym2_circle(begin->from_radio ? -less_m2 : 0)));
+}
 
 typedef struct {
     insole_spot_t spot; /**< m */
