@@ -45,6 +45,7 @@
 #include "insole/fuse/step_weighing.h"
 #include "insole/fuse/walker_cov.h"
 #include "insole/fuse/walker_ekf.h"
+#include "insole/fuse/walker_filter.h"
 #include "insole/fuse/walker_state.h"
 #include "insole/fuse/weighing.h"
 #include "insole/move/attitude.h"

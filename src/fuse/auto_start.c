@@ -32,6 +32,7 @@ insole_status_t insole_auto_start_init(insole_auto_start_t *start,
     }
     memset(start, 0, sizeof *start);
     start->config = *config;
+    start->bias_m = config->bias_m;
     return INSOLE_OK;
 }
 
@@ -71,6 +72,18 @@ insole_status_t insole_auto_start_compass(insole_auto_start_t *start, insole_rea
     return INSOLE_OK;
 }
 
+insole_status_t insole_auto_start_bias(insole_auto_start_t *start, insole_real_t sigma_m)
+{
+    if (!start) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!(sigma_m >= ZERO) || !insole_is_finite(sigma_m)) {
+        return refuse(start, INSOLE_ERR_VALUE);
+    }
+    start->bias_m = insole_min(sigma_m, start->config.bias_m);
+    return INSOLE_OK;
+}
+
 /* ---- what a fix adds ----------------------------------------------------------------------- */
 
 /* a x + b y of two rows */
@@ -100,7 +113,7 @@ static void add_up(insole_auto_start_sums_t *sums, insole_auto_start_row_t row)
 static void whiten(insole_auto_start_t *start, insole_auto_start_row_t row, insole_real_t var_m2,
                    insole_real_t dt_s)
 {
-    insole_real_t all_m2 = insole_square(start->config.bias_m);
+    insole_real_t all_m2 = insole_square(start->bias_m);
     insole_real_t left = insole_exp(-dt_s / start->config.bias_s);
     insole_real_t P = all_m2 + left * left * (start->var_shared_m2 - all_m2);
     insole_real_t S = P + var_m2, K = P / S;
@@ -131,7 +144,7 @@ static void take(insole_auto_start_t *start, const insole_spot_fix_t *fix)
     if (start->fixes == 0u) {
         start->first_way = heard;
         start->first_radio = fix->spot;
-        start->var_shared_m2 = insole_square(start->config.bias_m);
+        start->var_shared_m2 = insole_square(start->bias_m);
     } else {
         dt_s = insole_seconds(start->fix_us, fix->t_us);
     }

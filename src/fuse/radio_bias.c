@@ -23,7 +23,8 @@ insole_status_t insole_radio_bias_init(insole_radio_bias_t *radio, insole_real_t
           floor >= ZERO && floor <= ONE)) {
         return INSOLE_ERR_VALUE;
     }
-    *radio = (insole_radio_bias_t){.sigma_m = sigma_m, .time_s = time_s, .floor = floor};
+    *radio = (insole_radio_bias_t){
+        .sigma_m = sigma_m, .time_s = time_s, .floor = floor, .most_m = sigma_m};
     insole_radio_bias_forget(radio);
     return INSOLE_OK;
 }
@@ -32,6 +33,21 @@ void insole_radio_bias_forget(insole_radio_bias_t *radio)
 {
     radio->P = insole_sym2_circle(insole_square(radio->sigma_m));
     radio->has_time = false;
+}
+
+insole_status_t insole_radio_bias_limit(insole_radio_bias_t *radio, insole_real_t sigma_m)
+{
+    if (!radio) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!(sigma_m >= ZERO) || !insole_is_finite(sigma_m)) {
+        return INSOLE_ERR_VALUE;
+    }
+    radio->sigma_m = insole_min(sigma_m, radio->most_m);
+    if (!radio->has_time) {
+        insole_radio_bias_forget(radio);
+    }
+    return INSOLE_OK;
 }
 
 /* P after so much time, and how much is left of a mean. */

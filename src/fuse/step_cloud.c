@@ -83,8 +83,8 @@ insole_status_t insole_step_cloud_start(insole_step_cloud_t *cloud,
                                      origin->offset_rad,
                                      insole_sqrt(origin->var_offset_rad2)};
     const insole_particle_filter_config_t *config = &cloud->filter.config;
-    insole_cloud_source_t source =
-        insole_particle_origin_source(&from, config->bias_sigma_m, config->sigma_scale);
+    insole_cloud_source_t source = insole_particle_origin_source(
+        &from, cloud->filter.steps.radio.sigma_m, config->sigma_scale);
     insole_status_t status = insole_particle_filter_start_from(
         &cloud->filter, &cloud->cloud, &source, origin->is_radio ? &from.at : NULL);
     if (status != INSOLE_OK) {
@@ -250,6 +250,15 @@ insole_status_t insole_step_cloud_rss(insole_step_cloud_t *cloud, const insole_r
     return INSOLE_OK;
 }
 
+insole_status_t insole_step_cloud_bias(insole_step_cloud_t *cloud, insole_real_t sigma_m)
+{
+    if (!cloud) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_status_t status = insole_radio_bias_limit(&cloud->filter.steps.radio, sigma_m);
+    return status == INSOLE_OK ? INSOLE_OK : refuse(cloud, status);
+}
+
 /* ---- the work ---- */
 
 bool insole_step_cloud_work(insole_step_cloud_t *cloud, uint32_t particles)
@@ -297,7 +306,7 @@ static insole_status_t begin_state(void *state, const insole_step_filter_begin_t
     const insole_step_origin_t origin = {
         begin->t_us,
         begin->spot,
-        insole_step_filter_less_bias(begin, cloud->filter.config.bias_sigma_m),
+        insole_step_filter_less_bias(begin, cloud->filter.steps.radio.sigma_m),
         begin->offset_rad,
         begin->var_offset_rad2,
         begin->from_radio};
@@ -313,6 +322,11 @@ static insole_status_t step_state(void *state, uint64_t t_us, const insole_pace_
 static insole_status_t fix_state(void *state, const insole_spot_fix_t *fix)
 {
     return insole_step_cloud_fix(state, fix);
+}
+
+static insole_status_t bias_state(void *state, insole_real_t sigma_m)
+{
+    return insole_step_cloud_bias(state, sigma_m);
 }
 
 static insole_status_t compass_state(void *state, insole_real_t offset_rad, insole_real_t sigma_rad)
@@ -342,6 +356,7 @@ static insole_status_t answer_state(const void *state, insole_step_filter_answer
 const insole_step_filter_calls_t insole_step_cloud_calls = {.start = begin_state,
                                                             .step = step_state,
                                                             .fix = fix_state,
+                                                            .bias = bias_state,
                                                             .compass = compass_state,
                                                             .work = work_state,
                                                             .answer = answer_state};

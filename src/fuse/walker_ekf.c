@@ -36,6 +36,7 @@ insole_status_t insole_walker_ekf_init(insole_walker_ekf_t *walker,
     }
     memset(walker, 0, sizeof *walker);
     walker->config = *config;
+    walker->bias_m = config->bias_m;
     return INSOLE_OK;
 }
 
@@ -50,7 +51,7 @@ static void begin(insole_walker_ekf_t *walker, const insole_walker_start_t *star
     state->offset_rad = insole_wrap_pi(start->offset_rad);
     state->scale = ONE;
     /* a position from radio is off by what the fixes are off by */
-    insole_real_t share = start->by_radio ? -ONE : ZERO, var_m2 = insole_square(c->bias_m);
+    insole_real_t share = start->by_radio ? -ONE : ZERO, var_m2 = insole_square(walker->bias_m);
     insole_walker_column_t x = {{ONE, ZERO, share, ZERO, ZERO, ZERO}};
     insole_walker_column_t y = {{ZERO, ONE, ZERO, share, ZERO, ZERO}};
     insole_sym2_t turn = {LEAST_RAD2, ZERO, insole_square(c->sigma_scale)};
@@ -60,6 +61,7 @@ static void begin(insole_walker_ekf_t *walker, const insole_walker_start_t *star
     insole_walker_cov_add_pair(&state->P, INSOLE_WALKER_TURN, turn);
     insole_walker_state_wander(state, start->var_offset_rad2);
     walker->started = true;
+    walker->by_radio = start->by_radio;
     walker->has_fix = false;
     walker->bias_us = start->t_us;
     walker->ahead.cos = walker->ahead.sin = ZERO;
@@ -175,7 +177,7 @@ static void fade_bias(insole_walker_ekf_t *walker, uint64_t t_us)
 {
     insole_real_t dt_s = t_us > walker->bias_us ? insole_seconds(walker->bias_us, t_us) : ZERO;
     insole_real_t left = insole_exp(-dt_s / walker->config.bias_s);
-    insole_real_t fresh_m2 = insole_square(walker->config.bias_m) * (ONE - left * left);
+    insole_real_t fresh_m2 = insole_square(walker->bias_m) * (ONE - left * left);
     insole_walker_cov_fade(&walker->state.P, left);
     insole_walker_cov_add_pair(&walker->state.P, INSOLE_WALKER_BIAS, insole_sym2_circle(fresh_m2));
     walker->state.bias = insole_spot_scale(left, walker->state.bias);
@@ -281,6 +283,24 @@ insole_status_t insole_walker_ekf_fix(insole_walker_ekf_t *walker, const insole_
     return INSOLE_OK;
 }
 
+insole_status_t insole_walker_ekf_bias(insole_walker_ekf_t *walker, insole_real_t sigma_m)
+{
+    if (!walker) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!(sigma_m >= ZERO) || !insole_is_finite(sigma_m)) {
+        return refuse(walker, INSOLE_ERR_VALUE);
+    }
+    walker->bias_m = insole_min(sigma_m, walker->config.bias_m);
+    bool is_unseen = walker->started && !walker->has_fix && !walker->by_radio;
+    if (is_unseen) {
+        insole_walker_cov_fade(&walker->state.P, ZERO);
+        insole_walker_cov_add_pair(&walker->state.P, INSOLE_WALKER_BIAS,
+                                   insole_sym2_circle(insole_square(walker->bias_m)));
+    }
+    return INSOLE_OK;
+}
+
 /* ---- compass and answer -------------------------------------------------------------------- */
 
 /* c by a direction told: two numbers along and across it which, when nothing else is known, leave
@@ -348,59 +368,3 @@ insole_status_t insole_walker_ekf_answer(const insole_walker_ekf_t *walker,
     answer->var_scale = insole_walker_state_var_scale(&walker->state);
     return INSOLE_OK;
 }
-
-/* ---- for a tracker ---------------------------------------------------------------------- */
-
-static insole_status_t begin_state(void *state, const insole_step_filter_begin_t *begin)
-{
-    if (!begin) {
-        return INSOLE_ERR_NULL;
-    }
-    insole_walker_ekf_t *walker = state;
-    if (!walker) {
-        return INSOLE_ERR_NULL;
-    }
-    const insole_walker_start_t start = {begin->t_us,
-                                         begin->spot,
-                                         insole_step_filter_less_bias(begin, walker->config.bias_m),
-                                         begin->offset_rad,
-                                         begin->var_offset_rad2,
-                                         begin->from_radio};
-    return insole_walker_ekf_start(walker, &start);
-}
-
-static insole_status_t step_state(void *state, uint64_t t_us, const insole_pace_t *pace)
-{
-    (void)t_us;
-    return insole_walker_ekf_step(state, pace);
-}
-
-static insole_status_t fix_state(void *state, const insole_spot_fix_t *fix)
-{
-    return insole_walker_ekf_fix(state, fix);
-}
-
-static insole_status_t compass_state(void *state, insole_real_t offset_rad, insole_real_t sigma_rad)
-{
-    return insole_walker_ekf_compass(state, offset_rad, sigma_rad);
-}
-
-static insole_status_t answer_state(const void *state, insole_step_filter_answer_t *answer)
-{
-    insole_walker_answer_t known;
-    if (!answer) {
-        return INSOLE_ERR_NULL;
-    }
-    insole_status_t status = insole_walker_ekf_answer(state, &known);
-    if (status == INSOLE_OK) {
-        *answer = (insole_step_filter_answer_t){known.spot, known.cov_m2, known.offset_rad,
-                                                known.var_offset_rad2, known.scale};
-    }
-    return status;
-}
-
-const insole_step_filter_calls_t insole_walker_ekf_calls = {.start = begin_state,
-                                                            .step = step_state,
-                                                            .fix = fix_state,
-                                                            .compass = compass_state,
-                                                            .answer = answer_state};

@@ -7,11 +7,18 @@
 #define HALF INSOLE_R(0.5)
 #define ONE  INSOLE_R(1.0)
 
-#define BIN_DB        INSOLE_R(8.0)
-#define FIRST_MID_DBM INSOLE_R(-88.0) /* middle of the lowest bin */
-#define ROOT_2PI      INSOLE_R(2.5066282746310005)
+#define BIN_DB          INSOLE_R(8.0)
+#define FIRST_MID_LEVEL 176 /* of the middle of the lowest bin, -88 dBm */
+#define BIN_LEVELS      16
+#define ROOT_2PI        INSOLE_R(2.5066282746310005)
 
 const insole_ml_fix_config_t insole_ml_fix_defaults = {INSOLE_ML_FIX_KEYS(INSOLE_CONFIG_DEFAULT)};
+
+/* The prior density so far off its mean, over that at the mean. */
+static insole_real_t bell(const insole_ml_fix_config_t *config, insole_real_t off_db)
+{
+    return insole_exp(-HALF * insole_square(off_db / config->sigma_db));
+}
 
 insole_status_t insole_ml_fix_init(insole_ml_fix_t *ml, const insole_ml_fix_config_t *config)
 {
@@ -22,6 +29,9 @@ insole_status_t insole_ml_fix_init(insole_ml_fix_t *ml, const insole_ml_fix_conf
         return INSOLE_ERR_VALUE;
     }
     *ml = (insole_ml_fix_t){.config = *config};
+    for (uint32_t half_db = 0; half_db < (uint32_t)INSOLE_RADIO_LEVELS; half_db++) {
+        ml->bell[half_db] = bell(config, HALF * (insole_real_t)half_db);
+    }
     return INSOLE_OK;
 }
 
@@ -81,6 +91,12 @@ static insole_real_t smooth_count(const uint8_t *bins, insole_real_t silent, uin
     return HALF * (insole_real_t)bins[bin] + INSOLE_R(0.25) * (below + above);
 }
 
+static insole_real_t bell_of_bin(const insole_ml_fix_t *ml, uint8_t mean_level, uint32_t bin)
+{
+    int32_t off = (int32_t)mean_level + BIN_LEVELS * (int32_t)bin - FIRST_MID_LEVEL;
+    return ml->bell[off < 0 ? -off : off];
+}
+
 /* `heard`: false for the share of scans that did not hear it. */
 static insole_real_t log_of_histogram(const insole_ml_fix_t *ml, const insole_radio_map_t *map,
                                       uint32_t point, uint32_t entry, bool heard, insole_real_t dbm)
@@ -89,13 +105,13 @@ static insole_real_t log_of_histogram(const insole_ml_fix_t *ml, const insole_ra
     uint32_t count = insole_radio_map_heard(map, entry), bin = insole_radio_bin(dbm);
     uint32_t visits = map->visits ? map->visits[point] : count;
     insole_real_t silent = (insole_real_t)(visits - count), prior = ml->config.prior_count;
-    insole_real_t mid_dbm = FIRST_MID_DBM + BIN_DB * (insole_real_t)bin;
-    insole_real_t at_dbm = heard ? mid_dbm : ml->config.unheard_dbm;
-    insole_real_t off = (at_dbm - insole_radio_map_mean_dbm(map, entry)) / ml->config.sigma_db;
     insole_real_t seen = heard ? smooth_count(bins, silent, bin)
                                : HALF * silent + INSOLE_R(0.25) * (insole_real_t)bins[0];
     insole_real_t width = BIN_DB / (ROOT_2PI * ml->config.sigma_db);
-    insole_real_t expected = prior * width * insole_exp(-HALF * off * off);
+    insole_real_t density =
+        heard ? bell_of_bin(ml, map->below[entry], bin)
+              : bell(&ml->config, insole_radio_map_mean_dbm(map, entry) - ml->config.unheard_dbm);
+    insole_real_t expected = prior * width * density;
     insole_real_t share = (seen + expected) / ((insole_real_t)visits + prior);
     return insole_log(insole_max(share / width, INSOLE_R(1e-30)));
 }

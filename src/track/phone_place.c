@@ -6,6 +6,7 @@
 #include "insole/track/foot_anchor.h"
 
 #define ZERO INSOLE_R(0.0)
+#define HALF INSOLE_R(0.5)
 #define ONE  INSOLE_R(1.0)
 
 const insole_phone_place_config_t insole_phone_place_defaults = {
@@ -192,6 +193,19 @@ static insole_status_t begin_by_fixes(insole_phone_place_t *p, const insole_spot
     return INSOLE_OK;
 }
 
+/* Of dense fingerprints fixes tell more, and what they share is less. */
+static void learn_bias(insole_phone_place_t *p, const insole_spot_fix_t *fix)
+{
+    insole_real_t var_m2 = HALF * (fix->cov_m2.xx + fix->cov_m2.yy);
+    p->told += p->told < UINT32_MAX ? 1u : 0u;
+    p->told_m2 += (var_m2 - p->told_m2) / (insole_real_t)p->told;
+    insole_real_t sigma_m = p->config.bias_share * insole_sqrt(p->told_m2);
+    (void)insole_auto_start_bias(&p->auto_start, sigma_m);
+    if (p->filter.calls->bias) {
+        (void)note(p, p->filter.calls->bias(p->filter.state, sigma_m));
+    }
+}
+
 insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole_spot_fix_t *fix)
 {
     if (!place || !fix) {
@@ -199,6 +213,9 @@ insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole
     }
     if (is_reached(place, fix->t_us)) {
         return INSOLE_OK;
+    }
+    if (insole_spot_fix_check(fix) == INSOLE_OK) {
+        learn_bias(place, fix);
     }
     return place->is_started ? note(place, place->filter.calls->fix(place->filter.state, fix))
                              : begin_by_fixes(place, fix);

@@ -40,7 +40,7 @@ typedef struct {
         cases, sizeof cases / sizeof cases[0]                                                      \
     }
 
-extern const bench_table_t bench_base, bench_foot, bench_fuse, bench_phone;
+extern const bench_table_t bench_base, bench_foot, bench_fuse, bench_phone, bench_place;
 
 /** What the call under way found. */
 extern insole_real_t bench_result[BENCH_RESULTS];

@@ -6,7 +6,7 @@
 #include "insole/fuse/step_ekf.h"
 #include "insole/fuse/step_fusion.h"
 #include "insole/fuse/step_ukf.h"
-#include "insole/fuse/walker_ekf.h"
+#include "insole/fuse/walker_filter.h"
 #include "near.h"
 #include "suite.h"
 
@@ -19,7 +19,7 @@ typedef union {
 
 static const insole_step_filter_calls_t *const CALLS[] = {
     &insole_step_kf_calls, &insole_step_ekf_calls, &insole_step_ukf_calls, &insole_ml_shift_calls,
-    &insole_walker_ekf_calls};
+    &insole_walker_filter_calls};
 
 static any_t state;
 

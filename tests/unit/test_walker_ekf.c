@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/walker_ekf.h"
 
-#include "filter_calls.h"
 #include "insole/base/snapshot.h"
 #include "insole/fuse/step_ekf.h"
 #include "near.h"
@@ -921,50 +920,6 @@ START_TEST(a_saved_state_goes_on_alike)
 }
 END_TEST
 
-/* Bit for bit what the calls themselves do with the same news. */
-START_TEST(the_table_is_the_calls_it_names)
-{
-    const insole_step_filter_calls_t *calls = &insole_walker_ekf_calls;
-    insole_step_filter_begin_t at = filter_begin();
-    at.from_radio = _i == 1;
-    insole_walker_start_t start = {
-        at.t_us, at.spot, at.cov_m2, at.offset_rad, at.var_offset_rad2, at.from_radio};
-    insole_step_filter_answer_t named_answer;
-    insole_walker_ekf_t direct = begin(&insole_walker_ekf_defaults, &start), named = direct;
-    ck_assert_int_eq(calls->start(&named, &at), INSOLE_OK);
-    insole_rng_seed(&rng, 60u);
-    for (uint32_t i = 1u; i < 100u; i++) {
-        insole_real_t east = INSOLE_R(0.02) * (insole_real_t)i;
-        insole_pace_t pace = {INSOLE_R(0.7), east, INSOLE_R(0.01), INSOLE_R(0.01)};
-        insole_spot_fix_t fix = fix_at(1000000u + i, sample_spot(&rng, 9), 3);
-        step(&direct, &pace);
-        ck_assert_int_eq(calls->step(&named, i, &pace), INSOLE_OK);
-        take(&direct, &fix);
-        ck_assert_int_eq(calls->fix(&named, &fix), INSOLE_OK);
-        ck_assert_int_eq(insole_walker_ekf_compass(&direct, east, INSOLE_R(0.8)), INSOLE_OK);
-        ck_assert_int_eq(calls->compass(&named, east, INSOLE_R(0.8)), INSOLE_OK);
-    }
-    ck_assert_mem_eq(&direct, &named, sizeof direct);
-    insole_walker_answer_t answer = answer_of(&direct);
-    ck_assert_int_eq(calls->answer(&named, &named_answer), INSOLE_OK);
-    ck_assert_mem_eq(&named_answer.spot, &answer.spot, sizeof answer.spot);
-    ck_assert_mem_eq(&named_answer.cov_m2, &answer.cov_m2, sizeof answer.cov_m2);
-    ck_assert(named_answer.offset_rad == answer.offset_rad && named_answer.scale == answer.scale);
-    ck_assert(named_answer.var_offset_rad2 == answer.var_offset_rad2 && !calls->work);
-}
-END_TEST
-
-START_TEST(the_table_refuses_what_the_calls_refuse)
-{
-    insole_walker_ekf_t walker;
-    ck_assert_int_eq(insole_walker_ekf_init(&walker, &insole_walker_ekf_defaults), INSOLE_OK);
-    check_filter_calls(&insole_walker_ekf_calls, &walker);
-    ck_assert_int_eq(insole_walker_ekf_calls.compass(NULL, 0, 1), INSOLE_ERR_NULL);
-    ck_assert_int_eq(insole_walker_ekf_calls.compass(&walker, 0, 1), INSOLE_ERR_STATE);
-    ck_assert_uint_eq(walker.refused, 4u);
-}
-END_TEST
-
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("walker_ekf");
@@ -991,7 +946,5 @@ Suite *insole_suite(void)
     suite_add(suite, "refused", bad_input_is_refused);
     suite_add(suite, "anew", a_start_anew_forgets);
     suite_add(suite, "saved", a_saved_state_goes_on_alike);
-    suite_add_loop(suite, "table", the_table_is_the_calls_it_names, 2);
-    suite_add(suite, "table refuses", the_table_refuses_what_the_calls_refuse);
     return suite;
 }

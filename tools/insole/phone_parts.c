@@ -22,7 +22,7 @@ typedef struct {
 static recipe_t recipe_of(method_t method, bool has_plan)
 {
     const insole_step_filter_calls_t *best =
-        has_plan ? &insole_step_cloud_calls : &insole_walker_ekf_calls;
+        has_plan ? &insole_step_cloud_calls : &insole_walker_filter_calls;
     const recipe_t recipes[METHODS] = {
         [METHOD_PHONE_BEST] = {insole_attitude_ekf, &insole_kde_fix_calls, best, false},
         [METHOD_PHONE_PDR] = {insole_attitude_ekf, NULL, &insole_step_ekf_calls, false},
@@ -111,8 +111,8 @@ static void *filter_state(phone_parts_t *parts, const insole_step_filter_calls_t
     if (calls == &insole_ml_shift_calls) {
         return &parts->ml_shift;
     }
-    return calls == &insole_walker_ekf_calls ? (void *)&parts->walker_ekf
-                                             : (void *)&parts->step_fusion;
+    return calls == &insole_walker_filter_calls ? (void *)&parts->walker_ekf
+                                                : (void *)&parts->step_fusion;
 }
 
 /* The settings may ask for another than the method's. */

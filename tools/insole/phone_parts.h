@@ -15,7 +15,7 @@
 #include "insole/fuse/ml_shift.h"
 #include "insole/fuse/step_cloud.h"
 #include "insole/fuse/step_fusion.h"
-#include "insole/fuse/walker_ekf.h"
+#include "insole/fuse/walker_filter.h"
 #include "insole/place/kde_fix.h"
 #include "insole/place/ml_fix.h"
 #include "insole/track/phone_tracker.h"

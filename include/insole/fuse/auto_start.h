@@ -79,6 +79,7 @@ typedef struct {
 
 typedef struct {
     insole_auto_start_config_t config;
+    insole_real_t bias_m;           /**< 1-sigma of what fixes share; no more than the setting */
     uint32_t fixes;                 /**< taken */
     uint64_t fix_us;                /**< of the newest */
     insole_spot_t way;              /**< n, walked since init */
@@ -119,6 +120,10 @@ insole_status_t insole_auto_start_step(insole_auto_start_t *start, const insole_
  *  @return INSOLE_ERR_NULL; INSOLE_ERR_VALUE for an offset beyond 1000 rad or a sigma under 1e-3 */
 insole_status_t insole_auto_start_compass(insole_auto_start_t *start, insole_real_t offset_rad,
                                           insole_real_t sigma_rad);
+
+/** From now on fixes share errors of this 1-sigma, or of the setting's when that is smaller.
+ *  @return INSOLE_ERR_NULL; INSOLE_ERR_VALUE for one that is negative or not finite */
+insole_status_t insole_auto_start_bias(insole_auto_start_t *start, insole_real_t sigma_m);
 
 /** @return INSOLE_ERR_NULL; INSOLE_ERR_TIME for a fix that is not newer than the one before;
  *          INSOLE_ERR_VALUE as insole_spot_fix_check() */

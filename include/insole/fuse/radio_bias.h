@@ -33,7 +33,8 @@ extern "C" {
 
 typedef struct {
     insole_real_t sigma_m, time_s, floor;
-    insole_sym2_t P; /**< m^2, of the bias of a particle about its mean */
+    insole_real_t most_m; /**< of sigma_m */
+    insole_sym2_t P;      /**< m^2, of the bias of a particle about its mean */
     bool has_time;
     uint64_t t_us; /**< of the newest fix */
 
@@ -53,6 +54,10 @@ insole_status_t insole_radio_bias_init(insole_radio_bias_t *radio, insole_real_t
 
 /** Forgets all that was heard; all means must be set to 0. */
 void insole_radio_bias_forget(insole_radio_bias_t *radio);
+
+/** From now on fixes share errors of this 1-sigma, or of that of init when it is smaller.
+ *  @return INSOLE_ERR_NULL; INSOLE_ERR_VALUE for one that is negative or not finite */
+insole_status_t insole_radio_bias_limit(insole_radio_bias_t *radio, insole_real_t sigma_m);
 
 /** Takes a fix to be weighed by; `since` is not looked at.
  *  @param learns  whether means will be corrected; if not, P stays

@@ -150,6 +150,11 @@ insole_status_t insole_step_cloud_step(insole_step_cloud_t *cloud, const insole_
  *          not newer than the one before; INSOLE_ERR_VALUE as insole_spot_fix_check() */
 insole_status_t insole_step_cloud_fix(insole_step_cloud_t *cloud, const insole_spot_fix_t *fix);
 
+/** 1-sigma of what the fixes from now on share, those that wait among them; the setting is the
+ * most.
+ *  @return INSOLE_ERR_NULL; INSOLE_ERR_VALUE for one that is negative or not finite */
+insole_status_t insole_step_cloud_bias(insole_step_cloud_t *cloud, insole_real_t sigma_m);
+
 /** The offset as a compass sees it, insole_evidence_compass().
  *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE before the start; INSOLE_ERR_VALUE */
 insole_status_t insole_step_cloud_compass(insole_step_cloud_t *cloud, insole_real_t offset_rad,

@@ -61,6 +61,10 @@ typedef struct {
     insole_status_t (*step)(void *state, uint64_t t_us, const insole_pace_t *pace);
     insole_status_t (*fix)(void *state, const insole_spot_fix_t *fix);
 
+    /** 1-sigma of what the fixes from now on, and the start that they tell, are wrong by alike; the
+     *  filter's own setting is the most. */
+    insole_status_t (*bias)(void *state, insole_real_t sigma_m);
+
     /** The offset as a compass sees it. A filter that takes it may start with an offset that is
      *  hardly known. */
     insole_status_t (*compass)(void *state, insole_real_t offset_rad, insole_real_t sigma_rad);

@@ -42,7 +42,7 @@
 #define INSOLE_FUSE_WALKER_EKF_H
 
 #include "insole/base/config.h"
-#include "insole/fuse/step_filter.h"
+#include "insole/fuse/step_news.h"
 #include "insole/fuse/walker_state.h"
 
 #ifdef __cplusplus
@@ -83,8 +83,10 @@ typedef struct {
 typedef struct {
     insole_walker_ekf_config_t config;
     bool started;
-    bool has_fix; /**< a fix has come since the start */
+    bool by_radio; /**< is how the start was found */
+    bool has_fix;  /**< a fix has come since the start */
     insole_walker_state_t state;
+    insole_real_t bias_m;     /**< 1-sigma of what fixes share now; no more than the setting */
     insole_turn_t ahead;      /**< direction of the newest pace, n; zeros before the first */
     insole_real_t told_rad2;  /**< variance of heading that the newest pace told */
     insole_real_t drift_rad2; /**< and its part that the one before told, too */
@@ -123,6 +125,11 @@ insole_status_t insole_walker_ekf_step(insole_walker_ekf_t *walker, const insole
  *          the gate holds off is no refusal: `gated_in_row` tells. */
 insole_status_t insole_walker_ekf_fix(insole_walker_ekf_t *walker, const insole_spot_fix_t *fix);
 
+/** From now on fixes share errors of this 1-sigma, or of the setting's when that is smaller: what
+ *  they tell of themselves may show that a map is better than the setting takes it for.
+ *  @return INSOLE_ERR_NULL; INSOLE_ERR_VALUE for one that is negative or not finite */
+insole_status_t insole_walker_ekf_bias(insole_walker_ekf_t *walker, insole_real_t sigma_m);
+
 /** The offset was seen, with an error of its own.
  *  @param sigma_rad  1-sigma; pi / sqrt(3) and more: nothing is learned
  *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE before the start; INSOLE_ERR_VALUE for an offset
@@ -134,9 +141,6 @@ insole_status_t insole_walker_ekf_compass(insole_walker_ekf_t *walker, insole_re
  *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE, the answer untouched, before the start */
 insole_status_t insole_walker_ekf_answer(const insole_walker_ekf_t *walker,
                                          insole_walker_answer_t *answer);
-
-/** For a tracker; the state is an `insole_walker_ekf_t`. */
-extern const insole_step_filter_calls_t insole_walker_ekf_calls;
 
 #ifdef __cplusplus
 }

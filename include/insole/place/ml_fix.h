@@ -58,8 +58,10 @@ enum { INSOLE_ML_FIX_LIKELIEST = 0, INSOLE_ML_FIX_MEAN = 1 };
 
 typedef struct {
     insole_ml_fix_config_t config;
-    insole_map_search_t search; /**< the scan in work */
-    insole_real_t log_blank;    /**< logarithm of its likelihood where nothing is heard */
+    insole_real_t bell[INSOLE_RADIO_LEVELS]; /**< histogram: the prior density, by half dB off its
+                                                mean, over that at the mean */
+    insole_map_search_t search;              /**< the scan in work */
+    insole_real_t log_blank; /**< logarithm of its likelihood where nothing is heard */
 } insole_ml_fix_t;
 
 /** @return INSOLE_ERR_VALUE for a setting out of its range */

@@ -40,6 +40,9 @@ extern "C" {
 #define INSOLE_PHONE_PLACE_KEYS(KEY)                                                              \
     KEY(REAL, direct_sigma_rad, 0.5, 0.0, 4.0, "rad",                                             \
         "a filter that learns the direction starts with the first fix when it is known so well")  \
+    KEY(REAL, bias_share, 0.5, 0.0, 100.0, "",                                                    \
+        "1-sigma of what fixes share, of that which they tell of themselves, on the mean; at most " \
+        "the filter's own")                                                                        \
     KEY(REAL, sigma_walk_mps, 0.8, 0.0, 10.0, "m/s",                                              \
         "1-sigma of the velocity while samples are missing")                                      \
     KEY(REAL, sigma_gap_turn_rad_rts, 0.75, 0.0, 3.0, "rad/sqrt(s)",                              \
@@ -61,6 +64,8 @@ typedef struct {
     insole_start_t start;       /**< told */
     bool has_start;             /**< and not yet used */
     bool is_started;            /**< the filter */
+    insole_real_t told_m2;      /**< mean of the variances that fixes told */
+    uint32_t told;              /**< so many of them */
     uint32_t starts;            /**< times the filter was started */
     uint32_t refused;           /**< by the filter: fixes and steps */
 } insole_phone_place_t;
