@@ -97,6 +97,7 @@
 #include "insole/track/fusion_fix.h"
 #include "insole/track/fusion_gap.h"
 #include "insole/track/fusion_radio.h"
+#include "insole/track/fusion_start.h"
 #include "insole/track/fusion_strides.h"
 #include "insole/track/phone_compass.h"
 #include "insole/track/phone_config.h"

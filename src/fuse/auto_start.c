@@ -50,6 +50,10 @@ insole_status_t insole_auto_start_step(insole_auto_start_t *start, const insole_
         return refuse(start, INSOLE_ERR_VALUE);
     }
     start->way = way;
+    if (pace->length_m > ZERO) {
+        insole_turn_t ahead = insole_turn(pace->heading_rad);
+        start->ahead = insole_spot(ahead.cos, ahead.sin);
+    }
     start->drift_m2 =
         insole_min(start->drift_m2 + insole_sym2_largest(step.Q), INSOLE_SPOT_MOST_M2);
     return INSOLE_OK;
@@ -139,7 +143,8 @@ static void add_circle(insole_auto_start_t *start, insole_auto_start_row_t row)
 
 static void take(insole_auto_start_t *start, const insole_spot_fix_t *fix)
 {
-    insole_spot_t heard = insole_spot_sub(start->way, fix->since);
+    insole_spot_t heard = insole_spot_add_scaled(insole_spot_sub(start->way, fix->since),
+                                                 start->config.ahead_m, start->ahead);
     insole_real_t dt_s = ZERO;
     if (start->fixes == 0u) {
         start->first_way = heard;

@@ -332,7 +332,7 @@ static void work_particles(insole_particle_filter_t *filter, const insole_cloud_
         step_one(filter, cloud, plan);
     }
     for (; filter->next < end; filter->next++) {
-        work_one(filter, cloud, is_soft ? NULL : plan);
+        work_one(filter, cloud, is_soft && filter->phase != INSOLE_PARTICLES_DRAW ? NULL : plan);
     }
     if (filter->next == cloud->count) {
         end_phase(filter, cloud);

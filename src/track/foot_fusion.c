@@ -5,7 +5,6 @@
 #include "insole/track/fusion_fix.h"
 
 #define ZERO INSOLE_R(0.0)
-#define HALF INSOLE_R(0.5)
 /* Radio that no stride has fetched for so long is worked in without one. */
 static const uint64_t PATIENCE_US = 2000000u;
 enum {
@@ -34,10 +33,11 @@ insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion,
         return status;
     }
     *fusion = (insole_foot_fusion_t){.config = *config, .memory = *memory, .building = building};
+    bool printed = config->method == INSOLE_FUSION_TWO_ORDER;
     (void)insole_foot_tracker_init(&fusion->foot, &config->foot);
-    (void)insole_particle_filter_init(
-        &fusion->particles,
-        config->method == INSOLE_FUSION_TWO_ORDER ? &config->two_order : &config->particles, seed);
+    (void)insole_fusion_start_init(&fusion->start, printed ? 1 : config->start_fixes);
+    (void)insole_particle_filter_init(&fusion->particles,
+                                      printed ? &config->two_order : &config->particles, seed);
     return insole_foot_late_init(&fusion->late, memory->late,
                                  memory->late ? memory->late_count : 0u);
 }
@@ -175,17 +175,18 @@ static void begin_as_told(insole_foot_fusion_t *f, const insole_fix_t *foot)
     begin_at(f, *foot, anchor->var_m2, anchor->yaw_rad, sigma_rad);
 }
 
-/* Nobody tells: radio does, but not the direction. The paper's inertial position begins there too,
- * and its n lies as m does. */
+/* Nobody tells: radio does. The paper's inertial position begins there too, with n as m lies. */
 static void begin_by_radio(insole_foot_fusion_t *f, uint64_t t_us)
 {
-    const insole_anchor_fix_t *fix = &f->radio.fix;
-    insole_real_t sigma_m = insole_sqrt(HALF * (fix->P.xx + fix->P.yy)) + f->config.unsure_start_m;
-    insole_particle_start_t start = {fix->x_m, fix->y_m, sigma_m, ZERO, INSOLE_PI};
+    insole_particle_start_t start;
+    if (!insole_fusion_start_hear(&f->start, &f->radio, &start)) {
+        return;
+    }
+    start.sigma_m += f->config.unsure_start_m;
     if (f->config.method == INSOLE_FUSION_TWO_ORDER) {
-        insole_start_t place = {t_us, fix->x_m, fix->y_m, false, ZERO, ZERO, ZERO};
+        insole_start_t place = {t_us, start.x_m, start.y_m, false, ZERO, ZERO, ZERO};
         (void)insole_foot_tracker_start(&f->foot, &place);
-        start.sigma_offset_rad = ZERO;
+        start.offset_rad = start.sigma_offset_rad = ZERO;
     }
     begin(f, &start);
 }
@@ -217,7 +218,7 @@ static void begin_if_possible(insole_foot_fusion_t *f, const insole_fix_t *foot)
     if (is_at_start(f)) {
         f->is_told = true;
         begin_as_told(f, foot);
-    } else if (f->counts.starts == 0u && f->radio.has_fix && f->foot.zupt_ekf.aligned) {
+    } else if (f->counts.starts == 0u && f->foot.zupt_ekf.aligned) {
         begin_by_radio(f, foot->t_us);
     } else {
         cross_gap(f, foot);

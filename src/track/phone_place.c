@@ -193,17 +193,31 @@ static insole_status_t begin_by_fixes(insole_phone_place_t *p, const insole_spot
     return INSOLE_OK;
 }
 
-/* Of dense fingerprints fixes tell more, and what they share is less. */
-static void learn_bias(insole_phone_place_t *p, const insole_spot_fix_t *fix)
+/* What is heard of a bias is known before the fix is used. */
+static void tell_bias(insole_phone_place_t *p)
 {
-    insole_real_t var_m2 = HALF * (fix->cov_m2.xx + fix->cov_m2.yy);
-    p->told += p->told < UINT32_MAX ? 1u : 0u;
-    p->told_m2 += (var_m2 - p->told_m2) / (insole_real_t)p->told;
-    insole_real_t sigma_m = p->config.bias_share * insole_sqrt(p->told_m2);
+    insole_real_t sigma_m = p->told.fixes > 0u ? p->config.bias_share * insole_sqrt(p->told.mean_m2)
+                                               : INSOLE_SPOT_MOST_M;
     (void)insole_auto_start_bias(&p->auto_start, sigma_m);
     if (p->filter.calls->bias) {
         (void)note(p, p->filter.calls->bias(p->filter.state, sigma_m));
     }
+}
+
+/* Of dense fingerprints fixes tell more, and what they share is less. */
+static void learn_bias(insole_phone_place_t *p, const insole_spot_fix_t *fix)
+{
+    insole_phone_told_t *told = &p->told;
+    told->fixes += told->fixes < UINT32_MAX ? 1u : 0u;
+    insole_real_t var_m2 = HALF * (fix->cov_m2.xx + fix->cov_m2.yy);
+    told->mean_m2 += (var_m2 - told->mean_m2) / (insole_real_t)told->fixes;
+    tell_bias(p);
+}
+
+static insole_status_t use_fix(insole_phone_place_t *p, const insole_spot_fix_t *fix)
+{
+    return p->is_started ? note(p, p->filter.calls->fix(p->filter.state, fix))
+                         : begin_by_fixes(p, fix);
 }
 
 insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole_spot_fix_t *fix)
@@ -214,11 +228,17 @@ insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole
     if (is_reached(place, fix->t_us)) {
         return INSOLE_OK;
     }
-    if (insole_spot_fix_check(fix) == INSOLE_OK) {
-        learn_bias(place, fix);
+    if (insole_spot_fix_check(fix) != INSOLE_OK) {
+        return use_fix(place, fix); /* is refused */
     }
-    return place->is_started ? note(place, place->filter.calls->fix(place->filter.state, fix))
-                             : begin_by_fixes(place, fix);
+    insole_phone_told_t before = place->told;
+    learn_bias(place, fix);
+    insole_status_t status = use_fix(place, fix);
+    if (status != INSOLE_OK) {
+        place->told = before;
+        tell_bias(place);
+    }
+    return status;
 }
 
 insole_status_t insole_phone_place_compass(insole_phone_place_t *place)

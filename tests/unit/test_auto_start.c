@@ -11,6 +11,9 @@
 #define PI  3.14159265358979323846
 #define EPS ((double)INSOLE_REAL_EPSILON)
 
+/* The settings, but that a fix speaks of where the walker is. */
+static insole_auto_start_config_t plain;
+
 /* A generator of its own, so that nothing is shared with what is tested. */
 typedef struct {
     uint64_t state;
@@ -72,7 +75,7 @@ static insole_auto_start_t begin_start(const insole_auto_start_config_t *config)
 static outcome_t play(const plot_t *plot, dice_t *dice)
 {
     outcome_t o;
-    insole_auto_start_config_t config = insole_auto_start_defaults;
+    insole_auto_start_config_t config = plain;
     config.bias_m = (insole_real_t)plot->bias_m;
     config.sigma_scale = (insole_real_t)plot->scale;
     config.method = plot->method;
@@ -197,7 +200,7 @@ START_TEST(it_is_generalised_least_squares)
     insole_rng_seed(&rng, 1u);
     worst_t place = {0.0, 0.0}, angle = {0.0, 0.0}, variance = {0.0, 0.0}, curve = {0.0, 0.0};
     for (int i = 0; i < 200; i++) {
-        insole_auto_start_config_t config = insole_auto_start_defaults;
+        insole_auto_start_config_t config = plain;
         config.bias_m = sample_between(&rng, 0, 5);
         insole_auto_start_t start = begin_start(&config);
         rows_t rows = {2 + i % (MOST_FIXES - 1), {0.0}, {0.0}, {{0.0, 0.0}}, {{0.0, 0.0}}};
@@ -293,7 +296,7 @@ END_TEST
 /* By its density, integrated: the variance told is never less than the true one. */
 START_TEST(the_direction_s_variance_is_no_less_than_that_of_von_mises)
 {
-    insole_auto_start_t start = begin_start(&insole_auto_start_defaults);
+    insole_auto_start_t start = begin_start(&plain);
     insole_spot_fix_t fix = {1u, {0, 0}, {4, 0, 4}, {0, 0}};
     ck_assert_int_eq(insole_auto_start_fix(&start, &fix), INSOLE_OK);
     for (double sigma = 0.02; sigma < 3.0; sigma *= 1.05) {
@@ -386,7 +389,7 @@ static insole_auto_start_answer_t answer_of(const insole_auto_start_t *start)
 
 START_TEST(nothing_heard_is_no_start)
 {
-    insole_auto_start_t start = begin_start(&insole_auto_start_defaults);
+    insole_auto_start_t start = begin_start(&plain);
     insole_auto_start_answer_t answer;
     memset(&answer, 0x5a, sizeof answer);
     ASSERT_UNCHANGED(answer, insole_auto_start_answer(&start, &answer), INSOLE_ERR_STATE);
@@ -399,7 +402,7 @@ END_TEST
 
 START_TEST(standing_still_tells_no_direction)
 {
-    insole_auto_start_config_t config = insole_auto_start_defaults;
+    insole_auto_start_config_t config = plain;
     config.method = _i;
     insole_auto_start_t start = begin_start(&config);
     for (uint64_t i = 1u; i <= 12u; i++) {
@@ -420,7 +423,7 @@ END_TEST
 
 START_TEST(ready_is_as_the_settings_say)
 {
-    insole_auto_start_config_t config = insole_auto_start_defaults;
+    insole_auto_start_config_t config = plain;
     config.fixes = 3;
     config.fixes_most = 6;
     config.refine_rad = INSOLE_R(0.3);
@@ -451,7 +454,7 @@ END_TEST
 /* A fix heard four steps ago, told with the way since, is that fix heard then. */
 START_TEST(a_late_fix_counts_where_it_was_heard)
 {
-    insole_auto_start_t then = begin_start(&insole_auto_start_defaults), late = then;
+    insole_auto_start_t then = begin_start(&plain), late = then;
     insole_spot_t since = {0, 0};
     for (int i = 0; i < 10; i++) {
         insole_pace_t pace = {1, INSOLE_R(0.2) * (insole_real_t)i, 0, 0};
@@ -476,9 +479,91 @@ START_TEST(a_late_fix_counts_where_it_was_heard)
 }
 END_TEST
 
+/* Fixes that lie so far ahead of the walker, on a way with a turn: the place is his. */
+START_TEST(a_fix_speaks_of_a_place_ahead)
+{
+    static const double AHEAD_M[] = {1.0, -2.0, 0.0};
+    insole_auto_start_config_t config = plain;
+    config.ahead_m = (insole_real_t)AHEAD_M[_i];
+    insole_auto_start_t start = begin_start(&config);
+    const double turned = 0.7;
+    point_t truth = {3.0, -4.0};
+    double psi = 0.0;
+    for (uint32_t i = 0u; i < 12u; i++) {
+        psi = i < 6u ? 0.2 : 1.4;
+        truth.x += 2.0 * cos(psi + turned);
+        truth.y += 2.0 * sin(psi + turned);
+        insole_pace_t pace = {2, (insole_real_t)psi, 0, 0}, stands = {0, 2, 0, 0};
+        insole_spot_fix_t fix = {i + 1u,
+                                 {(insole_real_t)(truth.x + AHEAD_M[_i] * cos(psi + turned)),
+                                  (insole_real_t)(truth.y + AHEAD_M[_i] * sin(psi + turned))},
+                                 {4, 0, 4},
+                                 {0, 0}};
+        ck_assert_int_eq(insole_auto_start_step(&start, &pace), INSOLE_OK);
+        ck_assert_int_eq(insole_auto_start_step(&start, &stands), INSOLE_OK); /* looks nowhere */
+        ck_assert_int_eq(insole_auto_start_fix(&start, &fix), INSOLE_OK);
+    }
+    insole_auto_start_answer_t a = answer_of(&start);
+    ASSERT_NEAR(a.offset_rad, turned, 1.0e-4, "rad");
+    ASSERT_NEAR(a.spot.x_m, truth.x, 1.0e-3, "m");
+    ASSERT_NEAR(a.spot.y_m, truth.y, 1.0e-3, "m");
+}
+END_TEST
+
+/* By many draws of a shared error and noise: covariance of the place's error with that of the
+ * newest fix. */
+START_TEST(what_the_newest_fix_is_wrong_by_as_well)
+{
+    enum { DRAWS = 20000 };
+    dice_t dice = {77u + (uint64_t)_i};
+    insole_auto_start_config_t config = plain;
+    config.sigma_scale = 0;
+    double left = exp(-2.0 / 15.0), product = 0.0, told = 0.0;
+    for (int k = 0; k < DRAWS; k++) {
+        insole_auto_start_t start = begin_start(&config);
+        double b = 3.5 * dice_normal(&dice);
+        for (int i = 0; i <= _i; i++) {
+            b = i > 0 ? left * b + 3.5 * sqrt(1.0 - left * left) * dice_normal(&dice) : b;
+            insole_spot_fix_t fix = {(uint64_t)(i + 1) * 2000000u,
+                                     {(insole_real_t)(b + 3.0 * dice_normal(&dice)), 0},
+                                     {9, 0, 9},
+                                     {0, 0}};
+            ck_assert_int_eq(insole_auto_start_fix(&start, &fix), INSOLE_OK);
+        }
+        insole_auto_start_answer_t a = answer_of(&start);
+        product += (double)a.spot.x_m * b / DRAWS;
+        told = (double)a.shared_m2;
+    }
+    ASSERT_NEAR(product, told, 0.35, "m^2"); /* 1-sigma of the product's mean: 0.13 */
+    if (_i == 0) {
+        ASSERT_NEAR(told, 12.25, 1.0e-4, "m^2");
+    }
+}
+END_TEST
+
+/* The bias that is told counts from then on, the setting is the most. */
+START_TEST(what_fixes_share_can_be_told)
+{
+    insole_auto_start_config_t less = plain;
+    less.bias_m = 2;
+    insole_auto_start_t told = begin_start(&plain), set = begin_start(&less), most = told;
+    const insole_auto_start_t whole = told;
+    ck_assert_int_eq(insole_auto_start_bias(&told, 2), INSOLE_OK);
+    ck_assert_int_eq(insole_auto_start_bias(&most, 9), INSOLE_OK);
+    for (uint32_t i = 1u; i <= 4u; i++) {
+        insole_spot_fix_t fix = {i * 2000000u, {4, -9}, {9, 0, 9}, {0, 0}};
+        ck_assert_int_eq(insole_auto_start_fix(&told, &fix), INSOLE_OK);
+        ck_assert_int_eq(insole_auto_start_fix(&set, &fix), INSOLE_OK);
+    }
+    insole_auto_start_answer_t a = answer_of(&told), b = answer_of(&set);
+    ck_assert(a.cov_m2.xx == b.cov_m2.xx && a.shared_m2 == b.shared_m2);
+    ck_assert(most.bias_m == whole.bias_m);
+}
+END_TEST
+
 START_TEST(the_answer_walks_on_and_grows_less_sure)
 {
-    insole_auto_start_t start = begin_start(&insole_auto_start_defaults);
+    insole_auto_start_t start = begin_start(&plain);
     insole_spot_fix_t fix = {5u, {10, 20}, {9, 0, 9}, {0, 0}};
     ck_assert_int_eq(insole_auto_start_fix(&start, &fix), INSOLE_OK);
     ck_assert_int_eq(insole_auto_start_compass(&start, (insole_real_t)(0.5 * PI), INSOLE_R(0.1)),
@@ -503,7 +588,7 @@ END_TEST
  * mean squares by integration over its density, along and across. */
 START_TEST(a_way_in_a_vague_direction_is_vague)
 {
-    insole_auto_start_config_t config = insole_auto_start_defaults;
+    insole_auto_start_config_t config = plain;
     config.sigma_scale = 0;
     for (double sigma = 0.05; sigma < 2.5; sigma *= 1.3) {
         insole_auto_start_t start = begin_start(&config);
@@ -535,7 +620,7 @@ END_TEST
 
 START_TEST(many_fixes_and_any_input_stay_finite)
 {
-    insole_auto_start_config_t config = insole_auto_start_defaults;
+    insole_auto_start_config_t config = plain;
     config.method = _i % 2;
     insole_auto_start_t start = begin_start(&config);
     insole_rng_t rng;
@@ -592,7 +677,7 @@ END_TEST
 START_TEST(bad_input_is_refused)
 {
     const insole_real_t nan = (insole_real_t)NAN, endless = (insole_real_t)INFINITY;
-    insole_auto_start_t s = begin_start(&insole_auto_start_defaults);
+    insole_auto_start_t s = begin_start(&plain);
     insole_auto_start_answer_t answer;
     insole_pace_t pace = {1, 0, 0, 0}, bad_pace = {1, 0, nan, 0};
     insole_spot_fix_t fix = {5u, {1, 1}, {1, 0, 1}, {0, 0}}, bad_fix = fix;
@@ -612,6 +697,10 @@ START_TEST(bad_input_is_refused)
     for (int i = 0; i < 4; i++) {
         REFUSED(insole_auto_start_compass(&s, 0, no_sigma[i]), INSOLE_ERR_VALUE);
     }
+    ck_assert_int_eq(insole_auto_start_bias(NULL, 1), INSOLE_ERR_NULL);
+    REFUSED(insole_auto_start_bias(&s, -1), INSOLE_ERR_VALUE);
+    REFUSED(insole_auto_start_bias(&s, nan), INSOLE_ERR_VALUE);
+    REFUSED(insole_auto_start_bias(&s, endless), INSOLE_ERR_VALUE);
     ck_assert_int_eq(insole_auto_start_fix(&s, &fix), INSOLE_OK);
     REFUSED(insole_auto_start_fix(&s, &fix), INSOLE_ERR_TIME);
     ck_assert_int_eq(insole_auto_start_answer(NULL, &answer), INSOLE_ERR_NULL);
@@ -635,7 +724,7 @@ static void walk(insole_auto_start_t *start, uint32_t from, uint32_t to)
 
 START_TEST(a_saved_state_goes_on_alike)
 {
-    insole_auto_start_config_t circles = insole_auto_start_defaults;
+    insole_auto_start_config_t circles = plain;
     circles.method = INSOLE_AUTO_START_CIRCLES;
     insole_auto_start_t start = begin_start(&circles), restored;
     walk(&start, 0u, 3u);
@@ -655,6 +744,8 @@ END_TEST
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("auto_start");
+    plain = insole_auto_start_defaults;
+    plain.ahead_m = 0;
     suite_add(suite, "squares", it_is_generalised_least_squares);
     suite_add_loop(suite, "honest", the_covariance_of_the_start_is_honest, PLOT_COUNT);
     suite_add(suite, "density", the_direction_s_variance_is_no_less_than_that_of_von_mises);
@@ -665,6 +756,9 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "still", standing_still_tells_no_direction, 2);
     suite_add(suite, "ready", ready_is_as_the_settings_say);
     suite_add(suite, "late", a_late_fix_counts_where_it_was_heard);
+    suite_add_loop(suite, "ahead", a_fix_speaks_of_a_place_ahead, 3);
+    suite_add_loop(suite, "shared", what_the_newest_fix_is_wrong_by_as_well, 4);
+    suite_add(suite, "told", what_fixes_share_can_be_told);
     suite_add(suite, "on", the_answer_walks_on_and_grows_less_sure);
     suite_add(suite, "vague", a_way_in_a_vague_direction_is_vague);
     suite_add_loop(suite, "finite", many_fixes_and_any_input_stay_finite, 4);

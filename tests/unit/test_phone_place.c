@@ -20,6 +20,9 @@ typedef struct {
     insole_spot_fix_t fix;
     insole_real_t sight_rad, sight_sigma_rad;
     insole_step_filter_answer_t at;
+    insole_status_t biases;
+    uint32_t told;
+    insole_real_t bias_m;
 } fake_t;
 
 static insole_status_t fake_start(void *state, const insole_step_filter_begin_t *begin)
@@ -81,18 +84,37 @@ static const insole_step_filter_calls_t learning_calls = {.start = fake_start,
                                                           .compass = fake_compass,
                                                           .answer = fake_answer};
 
+static insole_status_t fake_bias(void *state, insole_real_t sigma_m)
+{
+    fake_t *fake = state;
+    fake->told++;
+    fake->bias_m = sigma_m;
+    return fake->biases;
+}
+
+static const insole_step_filter_calls_t erring_calls = {.start = fake_start,
+                                                        .step = fake_step,
+                                                        .fix = fake_fix,
+                                                        .bias = fake_bias,
+                                                        .compass = fake_compass,
+                                                        .answer = fake_answer};
+
+/* Those of the library, but that a fix speaks of where the walker is. */
+static insole_auto_start_config_t start_settings;
+
 static fake_t fake;
 static insole_phone_place_t place;
 
 static const insole_step_filter_t plain = {&plain_calls, &fake};
 static const insole_step_filter_t learning = {&learning_calls, &fake};
+static const insole_step_filter_t erring = {&erring_calls, &fake};
 
 static void set_up(const insole_step_filter_t *filter, bool has_radio)
 {
     const fake_t blank = {.starts = INSOLE_OK};
     fake = blank;
-    ck_assert_int_eq(insole_phone_place_init(&place, &insole_phone_place_defaults,
-                                             &insole_auto_start_defaults, filter, has_radio),
+    ck_assert_int_eq(insole_phone_place_init(&place, &insole_phone_place_defaults, &start_settings,
+                                             filter, has_radio),
                      INSOLE_OK);
 }
 
@@ -507,6 +529,46 @@ START_TEST(a_compass_known_well_lets_a_learning_filter_start_with_the_first_fix)
 }
 END_TEST
 
+/* Of the start's covariance the filter is told what the next fixes err by, too: the bias, that of
+ * the only fix, no more than the setting. */
+START_TEST(the_filter_knows_what_start_and_fixes_share)
+{
+    set_up(&erring, true);
+    see(0.1, 0.4, 0.3);
+    insole_spot_fix_t fix = {2000000u, {20, 30}, {8, 1, 24}, {0, 0}};
+    fix.cov_m2 = _i == 0 ? fix.cov_m2 : insole_sym2_circle(100);
+    ck_assert_int_eq(insole_phone_place_fix(&place, &fix), INSOLE_OK);
+    double told_m = _i == 0 ? 0.5 * 4.0 : 0.5 * 10.0, bias_m = fmin(told_m, 3.5);
+    ASSERT_NEAR(fake.bias_m, told_m, 1e-5, "m");
+    ck_assert(fake.begin.from_radio);
+    ASSERT_NEAR(fake.begin.shared_m2, bias_m * bias_m, 1e-4, "m^2");
+    ASSERT_AT_LEAST(fake.begin.cov_m2.xx, bias_m * bias_m + 8.0, "m^2");
+}
+END_TEST
+
+/* Half of the mean of what they tell, from the first to the last; what is no fix tells nothing. */
+START_TEST(what_fixes_tell_is_averaged)
+{
+    set_up(&erring, true);
+    see(0.1, 0.4, 0.3);
+    double sum = 0.0;
+    for (uint32_t k = 1u; k <= 6u; k++) {
+        insole_real_t xx = (insole_real_t)(3u * k), yy = INSOLE_R(5.0);
+        insole_spot_fix_t fix = {k * 1000000u, {20, 30}, {xx, 1, yy}, {0, 0}}, bad = fix;
+        bad.cov_m2.xx = -1;
+        sum += 0.5 * (double)(xx + yy);
+        (void)insole_phone_place_fix(&place, &fix);
+        ASSERT_NEAR(fake.bias_m, 0.5 * sqrt(sum / k), 1e-5, "m");
+        (void)insole_phone_place_fix(&place, &bad);
+        ck_assert_uint_eq(fake.told, k);
+    }
+    uint32_t refused = place.refused;
+    fake.biases = INSOLE_ERR_VALUE;
+    ck_assert_int_eq(hear(9.0, 1.0, 1.0), INSOLE_OK);
+    ck_assert_uint_eq(place.refused, refused + 1u);
+}
+END_TEST
+
 START_TEST(otherwise_it_waits)
 {
     set_up(_i == 0 ? &plain : &learning, true);
@@ -567,6 +629,7 @@ START_TEST(what_the_filter_refuses_is_counted_and_told)
 {
     set_up_started(&learning);
     see(0.9, 0.4, 0.3);
+    ck_assert_int_eq(hear(2.5, 5.0, 6.0), INSOLE_OK);
     insole_phone_place_t before = place;
     fake.steps = INSOLE_ERR_VALUE;
     fake.fixes = INSOLE_ERR_TIME;
@@ -710,8 +773,8 @@ START_TEST(filters_that_lack_a_part_are_refused)
     calls.fix = _i == 2 ? NULL : fake_fix;
     calls.answer = _i == 3 ? NULL : fake_answer;
     ASSERT_UNCHANGED(place,
-                     insole_phone_place_init(&place, &insole_phone_place_defaults,
-                                             &insole_auto_start_defaults, &lacking, true),
+                     insole_phone_place_init(&place, &insole_phone_place_defaults, &start_settings,
+                                             &lacking, true),
                      INSOLE_ERR_VALUE);
 }
 END_TEST
@@ -721,12 +784,12 @@ static insole_phone_place_config_t config;
 static insole_status_t judge(void)
 {
     insole_phone_place_t tried;
-    return insole_phone_place_init(&tried, &config, &insole_auto_start_defaults, &plain, true);
+    return insole_phone_place_init(&tried, &config, &start_settings, &plain, true);
 }
 
 START_TEST(every_setting_has_its_range)
 {
-    insole_auto_start_config_t start = insole_auto_start_defaults;
+    insole_auto_start_config_t start = start_settings;
     config = insole_phone_place_defaults;
     ck_assert_int_eq(judge(), INSOLE_OK);
     INSOLE_PHONE_PLACE_KEYS(SETTING_HAS_ENDS)
@@ -753,7 +816,7 @@ END_TEST
 START_TEST(null_is_refused)
 {
     const insole_phone_place_config_t *defaults = &insole_phone_place_defaults;
-    const insole_auto_start_config_t *starts = &insole_auto_start_defaults;
+    const insole_auto_start_config_t *starts = &start_settings;
     insole_pace_t pace = pace_to(0.0);
     insole_phone_answer_t answer;
     insole_spot_fix_t fix = {1u, {0, 0}, {1, 0, 1}, {0, 0}};
@@ -785,6 +848,10 @@ END_TEST
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("phone_place");
+    start_settings = insole_auto_start_defaults;
+    start_settings.ahead_m = 0;
+    suite_add_loop(suite, "shared", the_filter_knows_what_start_and_fixes_share, 2);
+    suite_add(suite, "told", what_fixes_tell_is_averaged);
     suite_add_loop(suite, "first step", the_first_step_gives_its_direction, 4);
     suite_add(suite, "first peaks", peaks_that_may_be_steps_give_it_sooner);
     suite_add(suite, "direction not wanted", direction_without_need_is_refused);

@@ -216,6 +216,31 @@ START_TEST(a_cloud_drawn_about_a_fix_knows_its_bias)
 }
 END_TEST
 
+/* Told before the first fix, a smaller sigma is that of init; the one of init is the most. */
+START_TEST(what_fixes_share_can_be_told)
+{
+    insole_spot_fix_t fix = fix_of(1.0, 4, 2, 16, 1, 7), next = fix_of(4.0, 5, 2, 16, 1, 7);
+    begin(2.0, 15.0, 0.01);
+    hear(&fix);
+    hear(&next);
+    insole_sym2_t P = radio.P;
+    begin(3.0, 15.0, 0.01);
+    ck_assert_int_eq(insole_radio_bias_limit(&radio, 2), INSOLE_OK);
+    hear(&fix);
+    hear(&next);
+    ck_assert(radio.P.xx == P.xx && radio.P.xy == P.xy && radio.P.yy == P.yy);
+    ck_assert_int_eq(insole_radio_bias_limit(&radio, 50), INSOLE_OK);
+    ck_assert(radio.sigma_m == INSOLE_R(3.0));
+    ck_assert(radio.P.xx == P.xx); /* what is known stays */
+    ck_assert_int_eq(insole_radio_bias_limit(NULL, 1), INSOLE_ERR_NULL);
+    const double bad[] = {-1.0, (double)NAN, (double)INFINITY};
+    for (int i = 0; i < 3; i++) {
+        ASSERT_UNCHANGED(radio, insole_radio_bias_limit(&radio, (insole_real_t)bad[i]),
+                         INSOLE_ERR_VALUE);
+    }
+}
+END_TEST
+
 /* The float that a chip computes stays a covariance over a day of fixes. */
 START_TEST(the_covariance_stays_one)
 {
@@ -293,6 +318,7 @@ Suite *insole_suite(void)
     suite_add(suite, "no bias", without_a_bias_it_is_the_kernel_of_the_paper);
     suite_add(suite, "no mean", who_has_no_mean_does_not_learn);
     suite_add(suite, "drawn about a fix", a_cloud_drawn_about_a_fix_knows_its_bias);
+    suite_add(suite, "told", what_fixes_share_can_be_told);
     suite_add(suite, "covariance", the_covariance_stays_one);
     suite_add_loop(suite, "far off", far_off_stays_finite, 2);
     suite_add(suite, "bad input", bad_input_changes_nothing);

@@ -7,6 +7,7 @@
 #include "fingerprints.h"
 #include "plans.h"
 #include "refusal.h"
+#include "sample.h"
 #include "suite.h"
 
 enum { N = 500, MANY = 40000, WHOLE = 1 << 30 };
@@ -625,6 +626,56 @@ START_TEST(the_table_is_the_calls_it_names)
 }
 END_TEST
 
+/* A start whose covariance holds the bias of the fixes is drawn as wide as that, and no wider. */
+START_TEST(a_start_by_radio_is_as_wide_as_it_tells)
+{
+    static const double BIAS_M[] = {3.5, 2.0};
+    insole_step_filter_begin_t at = filter_begin();
+    at.cov_m2 = insole_sym2_circle(20);
+    at.from_radio = true;
+    at.shared_m2 = INSOLE_R(12.25);
+    begin(&insole_step_cloud_defaults, MANY, NULL);
+    ck_assert_int_eq(insole_step_cloud_calls.bias(&cloud, (insole_real_t)BIAS_M[_i]), INSOLE_OK);
+    ck_assert(cloud.filter.steps.radio.sigma_m == (insole_real_t)BIAS_M[_i]);
+    ck_assert_int_eq(insole_step_cloud_calls.start(&cloud, &at), INSOLE_OK);
+    work(WHOLE);
+    insole_step_cloud_answer_t a = answer();
+    ASSERT_NEAR(a.cov_m2.xx, 20.0, 1.0, "m2");
+    ASSERT_NEAR(a.cov_m2.yy, 20.0, 1.0, "m2");
+    ck_assert_int_eq(insole_step_cloud_calls.bias(NULL, 1), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_step_cloud_calls.bias(&cloud, -1), INSOLE_ERR_VALUE);
+    ck_assert_uint_eq(cloud.refused, 1u);
+}
+END_TEST
+
+/* By radio that lies in a wall, or far outside: no particle is drawn where nobody can walk. */
+START_TEST(no_start_is_drawn_outside_the_plan)
+{
+    draw_corridor(true);
+    insole_step_filter_begin_t at = filter_begin();
+    at.cov_m2 = insole_sym2_circle(16);
+    at.from_radio = true;
+    uint32_t alive = 0u, outside = 0u;
+    insole_rng_seed(&rng, 21u);
+    for (uint32_t k = 0u; k < 500u; k++) {
+        at.spot = insole_spot(sample_between(&rng, -4, 12), sample_between(&rng, -4, 12));
+        begin_blank();
+        ck_assert_int_eq(insole_step_cloud_calls.start(&cloud, &at), INSOLE_OK);
+        work(WHOLE);
+        for (uint32_t i = 0u; i < N; i++) {
+            bool lives = insole_particle_lives(&particles[i]);
+            alive += lives ? 1u : 0u;
+            outside += lives && !insole_floor_plan_inside(&drawing.plan, particles[i].x_m,
+                                                          particles[i].y_m)
+                           ? 1u
+                           : 0u;
+        }
+    }
+    ck_assert_uint_eq(outside, 0u);
+    ck_assert_uint_gt(alive, 100u * N);
+}
+END_TEST
+
 /* A tracker asks right after the start: the cloud is drawn by work, and no sooner. */
 START_TEST(the_table_answers_when_the_cloud_is_drawn)
 {
@@ -680,6 +731,8 @@ Suite *insole_suite(void)
     suite_add(suite, "bad news", bad_news_change_nothing);
     suite_add(suite, "no state", no_state_no_answer);
     suite_add(suite, "settings", settings_and_memory_are_checked);
+    suite_add_loop(suite, "wide", a_start_by_radio_is_as_wide_as_it_tells, 2);
+    suite_add(suite, "inside", no_start_is_drawn_outside_the_plan);
     suite_add_loop(suite, "table", the_table_is_the_calls_it_names, 2);
     suite_add(suite, "drawn", the_table_answers_when_the_cloud_is_drawn);
     suite_add(suite, "table refuses", the_table_refuses_what_the_calls_refuse);

@@ -406,6 +406,40 @@ START_TEST(an_unknown_direction_is_found_on_a_bent_walk)
 }
 END_TEST
 
+/* Told before the first fix, a smaller bias is that of a filter set so; the setting is the most. */
+START_TEST(what_fixes_share_can_be_told)
+{
+    insole_walker_ekf_config_t less = insole_walker_ekf_defaults;
+    less.bias_m = INSOLE_R(1.5);
+    insole_walker_start_t start = start_with(0, 0.0025, _i == 1);
+    insole_walker_ekf_t told, set = begin(&less, &start);
+    memset(&told, 0, sizeof told);
+    ck_assert_int_eq(insole_walker_ekf_init(&told, &insole_walker_ekf_defaults), INSOLE_OK);
+    ck_assert_int_eq(insole_walker_ekf_bias(&told, INSOLE_R(1.5)), INSOLE_OK);
+    ck_assert_int_eq(insole_walker_ekf_start(&told, &start), INSOLE_OK);
+    insole_walker_ekf_t late = begin(&insole_walker_ekf_defaults, &start);
+    ck_assert_int_eq(insole_walker_ekf_bias(&late, INSOLE_R(1.5)), INSOLE_OK);
+    insole_rng_seed(&rng, 14u);
+    for (uint32_t k = 1u; k <= 20u; k++) {
+        insole_pace_t pace = {INSOLE_R(0.7), INSOLE_R(0.1), 0, 0};
+        insole_spot_fix_t fix = fix_at(2000000u * k, sample_spot(&rng, 5), 4);
+        step(&told, &pace);
+        step(&set, &pace);
+        step(&late, &pace);
+        take(&told, &fix);
+        take(&set, &fix);
+        take(&late, &fix);
+    }
+    ck_assert(told.state.spot.x_m == set.state.spot.x_m);
+    ck_assert(told.state.bias.y_m == set.state.bias.y_m);
+    if (_i == 0) { /* nothing was known of the bias */
+        ASSERT_NEAR(late.state.spot.x_m, set.state.spot.x_m, 1.0e-5, "m");
+    }
+    ck_assert_int_eq(insole_walker_ekf_bias(&told, 100), INSOLE_OK);
+    ck_assert(told.bias_m == insole_walker_ekf_defaults.bias_m);
+}
+END_TEST
+
 /* What is ignored costs: the same filter without a bias claims too much. */
 START_TEST(without_a_bias_it_claims_too_much)
 {
@@ -417,7 +451,7 @@ START_TEST(without_a_bias_it_claims_too_much)
             truth_t truth;
             insole_rng_t now = rng;
             insole_walker_ekf_t walker = begin_walk(&plot, &truth);
-            walker.config.bias_m = k ? INSOLE_R(0.0) : walker.config.bias_m;
+            walker.bias_m = k ? INSOLE_R(0.0) : walker.bias_m;
             walker_go(&walker, &plot, &truth);
             insole_walker_answer_t a = answer_of(&walker);
             point_t e = {truth.at.x - (double)a.spot.x_m, truth.at.y - (double)a.spot.y_m};
@@ -852,6 +886,9 @@ START_TEST(bad_input_is_refused)
     ASSERT_UNCHANGED(f, insole_walker_ekf_fix(&f, NULL), INSOLE_ERR_NULL);
     REFUSED(insole_walker_ekf_fix(&f, &bad_fix), INSOLE_ERR_VALUE);
     ck_assert_int_eq(insole_walker_ekf_compass(NULL, 0, 1), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_walker_ekf_bias(NULL, 1), INSOLE_ERR_NULL);
+    REFUSED(insole_walker_ekf_bias(&f, -1), INSOLE_ERR_VALUE);
+    REFUSED(insole_walker_ekf_bias(&f, nan), INSOLE_ERR_VALUE);
     REFUSED(insole_walker_ekf_compass(&f, nan, 1), INSOLE_ERR_VALUE);
     REFUSED(insole_walker_ekf_compass(&f, 1001, 1), INSOLE_ERR_VALUE);
     REFUSED(insole_walker_ekf_compass(&f, 0, INSOLE_R(0.0009)), INSOLE_ERR_VALUE);
@@ -926,6 +963,7 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "book", it_is_the_filter_of_the_book, 4);
     suite_add_loop(suite, "honest", the_covariance_is_honest, 9);
     suite_add_loop(suite, "found", an_unknown_direction_is_found_on_a_bent_walk, 2);
+    suite_add_loop(suite, "told bias", what_fixes_share_can_be_told, 2);
     suite_add(suite, "bias", without_a_bias_it_claims_too_much);
     suite_add_loop(suite, "linear", what_is_linear_is_the_plain_filter, 2);
     suite_add_loop(suite, "stands", who_stands_still_stays, 2);

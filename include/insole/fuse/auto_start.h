@@ -53,7 +53,8 @@ extern "C" {
     KEY(INT, fixes_most, 16, 1, 1000, "fixes", "ready after so many in any case")                 \
     KEY(REAL, bias_m, 3.5, 0.0, 100.0, "m", "1-sigma of the errors that fixes share; 0 = none")   \
     KEY(REAL, bias_s, 15.0, 0.1, 10000.0, "s", "how long they last")                              \
-    KEY(REAL, sigma_scale, 0.1, 0.0, 1.0, "", "1-sigma of what all lengths are wrong by")
+    KEY(REAL, sigma_scale, 0.1, 0.0, 1.0, "", "1-sigma of what all lengths are wrong by")         \
+    KEY(REAL, ahead_m, 1.0, -10.0, 10.0, "m", "a fix lies so far ahead of the walker")
 /* clang-format on */
 
 typedef struct {
@@ -83,8 +84,9 @@ typedef struct {
     uint32_t fixes;                 /**< taken */
     uint64_t fix_us;                /**< of the newest */
     insole_spot_t way;              /**< n, walked since init */
+    insole_spot_t ahead;            /**< n, direction of the newest pace; zeros before the first */
     insole_real_t drift_m2;         /**< variance that the paces told */
-    insole_spot_t first_way;        /**< n, at the first fix */
+    insole_spot_t first_way;        /**< n, what the first fix speaks of */
     insole_spot_t first_radio;      /**< m, the first fix: place and sums count from there */
     insole_auto_start_row_t shared; /**< of what is shared with the fix before */
     insole_real_t var_shared_m2;    /**< of the shared error, given the fixes so far */

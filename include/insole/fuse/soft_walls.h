@@ -6,6 +6,7 @@
  *  A plan tells where people usually walk. A point counts as closed only when it lies deep in what
  *  is not walkable, each stride that ends there weighs less, and when nearly all particles would,
  *  the plan is taken to be wrong and says nothing of this stride. Hence two rounds.
+ *  No cloud is drawn outside of the plan, though: who begins somewhere is where one walks.
  *
  *      insole_soft_walls_begin(&soft, 1, 0.2, 0.02);
  *      for each particle:

@@ -34,6 +34,7 @@
 #include "insole/track/fusion_config.h"
 #include "insole/track/fusion_gap.h"
 #include "insole/track/fusion_radio.h"
+#include "insole/track/fusion_start.h"
 #include "insole/track/fusion_strides.h"
 
 #ifdef __cplusplus
@@ -54,6 +55,7 @@ typedef struct {
     const insole_building_t *building;
 
     insole_fusion_radio_t radio;
+    insole_fusion_start_t start; /**< for one that nobody tells */
     insole_fusion_gap_t gap;
 
     insole_evidence_t news; /**< what the particles are told */

@@ -56,6 +56,11 @@ typedef struct {
 extern const insole_phone_place_config_t insole_phone_place_defaults;
 
 typedef struct {
+    insole_real_t mean_m2; /**< of the variances of each coordinate */
+    uint32_t fixes;
+} insole_phone_told_t;
+
+typedef struct {
     insole_phone_place_config_t config;
     insole_step_filter_t filter;
     bool has_radio; /**< fixes will come */
@@ -64,8 +69,7 @@ typedef struct {
     insole_start_t start;       /**< told */
     bool has_start;             /**< and not yet used */
     bool is_started;            /**< the filter */
-    insole_real_t told_m2;      /**< mean of the variances that fixes told */
-    uint32_t told;              /**< so many of them */
+    insole_phone_told_t told;   /**< by the fixes, of themselves */
     uint32_t starts;            /**< times the filter was started */
     uint32_t refused;           /**< by the filter: fixes and steps */
 } insole_phone_place_t;

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+#include "insole/track/fusion_start.h"
+
+#include <stddef.h>
+
+#define ZERO INSOLE_R(0.0)
+#define HALF INSOLE_R(0.5)
+
+/* What the walls and people around make all ranges of some seconds wrong by. */
+static const insole_real_t BIAS_M = INSOLE_R(1.0);
+
+/* With a larger one the direction counts as not known. */
+static const insole_real_t VAGUE_RAD = INSOLE_R(1.2);
+
+insole_status_t insole_fusion_start_init(insole_fusion_start_t *start, int32_t fixes)
+{
+    if (!start) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_auto_start_config_t config = insole_auto_start_defaults;
+    config.fixes = fixes;
+    config.refine_rad = INSOLE_R(3.2);
+    config.bias_m = BIAS_M;
+    config.sigma_scale = INSOLE_R(0.02);
+    config.ahead_m = ZERO;
+    insole_auto_start_t empty;
+    insole_status_t status = insole_auto_start_init(&empty, &config);
+    if (status == INSOLE_OK) {
+        *start = (insole_fusion_start_t){.fixes = empty};
+    }
+    return status;
+}
+
+/* The way from fix to fix is one pace. */
+static void go_on(insole_fusion_start_t *start, insole_spot_t n_m)
+{
+    insole_spot_t way = insole_spot_sub(n_m, start->n_m);
+    insole_pace_t pace = {insole_spot_norm(way), insole_atan2(way.y_m, way.x_m), ZERO, ZERO};
+    if (start->fixes.fixes > 0u) {
+        (void)insole_auto_start_step(&start->fixes, &pace);
+    }
+    start->n_m = n_m;
+}
+
+bool insole_fusion_start_hear(insole_fusion_start_t *start, const insole_fusion_radio_t *radio,
+                              insole_particle_start_t *where)
+{
+    if (!start || !radio || !where || !radio->has_fix) {
+        return false;
+    }
+    bool is_old = start->fixes.fixes > 0u && radio->fix_us <= start->fixes.fix_us;
+    if (is_old) {
+        return false;
+    }
+    const insole_anchor_fix_t *heard = &radio->fix;
+    const insole_spot_fix_t fix = {
+        radio->fix_us,
+        {heard->x_m, heard->y_m},
+        insole_spot_cov(insole_sym2(heard->P.xx, heard->P.xy, heard->P.yy)),
+        {ZERO, ZERO}};
+    insole_auto_start_answer_t found;
+    go_on(start, radio->fix_n_m);
+    if (insole_auto_start_fix(&start->fixes, &fix) != INSOLE_OK ||
+        insole_auto_start_answer(&start->fixes, &found) != INSOLE_OK || !found.ready) {
+        return false;
+    }
+    insole_real_t sigma_rad = insole_sqrt(found.var_offset_rad2);
+    *where = (insole_particle_start_t){
+        found.spot.x_m, found.spot.y_m, insole_sqrt(HALF * (found.cov_m2.xx + found.cov_m2.yy)),
+        found.offset_rad, sigma_rad < VAGUE_RAD ? sigma_rad : INSOLE_PI};
+    return true;
+}
