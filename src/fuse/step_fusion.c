@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/step_fusion.h"
 
-#include <string.h>
-
 #include <stddef.h>
+#include <string.h>
 
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)

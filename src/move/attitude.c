@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/move/attitude.h"
 
-#include <string.h>
-
 #include <stddef.h>
+#include <string.h>
 
 #include "insole/move/heading.h"
 

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/fusion_radio.h"
 
-#include <string.h>
-
 #include <stddef.h>
+#include <string.h>
 
 #include "insole/base/fastmath.h"
 
