@@ -121,14 +121,14 @@ typedef struct {
     const char *table;    /**< which of the paper's */
     const char *scenario; /**< in the folder of maps */
     const char *survey;   /**< there, of fingerprints; NULL: none */
-    bool shares_survey;   /**< one for all walks; else each has its own */
+    bool shares_survey;   /**< one for all walks, whatever their seeds; else each has its own */
     int runs;             /**< walks where nobody tells */
     double begin_s;       /**< errors count from here on: the first step comes later */
     reproduce_scored_t scored;
     bool is_pooled;                    /**< figures are of all errors, not means of the walks' */
     const reproduce_figure_t *columns; /**< that the paper prints */
     int column_count;
-    const reproduce_kind_t *kinds; /**< of walks, by turns; NULL: all are the same */
+    const reproduce_kind_t *kinds; /**< of walks, seed by seed; NULL: all are the same */
     int kind_count;
     const char *const *settings; /**< of the paper's parts, key=value; the last is NULL */
     const char *const *notes;    /**< what to know of the table; the last is NULL */

@@ -48,8 +48,7 @@ static bool survey_for(const reproduction_t *reproduction, uint64_t seed, failur
 
 bool reproduce_survey(const reproduction_t *reproduction, failure_t *failure)
 {
-    return !reproduction->paper->shares_survey ||
-           survey_for(reproduction, reproduction->request.seed, failure);
+    return !reproduction->paper->shares_survey || survey_for(reproduction, 0u, failure);
 }
 
 /* ---- truth ------------------------------------------------------------------------------ */
@@ -154,7 +153,9 @@ bool reproduce_open_walk(reproduction_t *reproduction, int walk, failure_t *fail
     const reproduce_paper_t *paper = reproduction->paper;
     bool has_survey = paper->survey != NULL && !paper->shares_survey;
     reproduction->seed = reproduction->request.seed + (uint64_t)walk;
-    reproduction->kind = paper->kinds != NULL ? &paper->kinds[walk % paper->kind_count] : NULL;
+    reproduction->kind = paper->kinds != NULL
+                             ? &paper->kinds[reproduction->seed % (uint64_t)paper->kind_count]
+                             : NULL;
     return (!has_survey || survey_for(reproduction, reproduction->seed, failure)) &&
            reproduce_simulate(reproduction->request.maps, paper->scenario, reproduction->folder,
                               reproduction->seed,
