@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/move/yaw_track.h"
 
+#include <string.h>
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -9,14 +11,13 @@ static const insole_real_t LIE_S = INSOLE_R(1.0);
 
 insole_status_t insole_yaw_track_init(insole_yaw_track_t *yaw, insole_real_t tipped_rad)
 {
-    static const insole_yaw_track_t blank;
     if (!yaw) {
         return INSOLE_ERR_NULL;
     }
     if (!(tipped_rad >= INSOLE_R(0.1) && tipped_rad <= INSOLE_R(3.2))) {
         return INSOLE_ERR_VALUE;
     }
-    *yaw = blank;
+    memset(yaw, 0, sizeof *yaw);
     yaw->tipped_cos = insole_cos(insole_min(tipped_rad, INSOLE_PI));
     return INSOLE_OK;
 }
