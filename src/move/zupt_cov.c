@@ -98,8 +98,9 @@ insole_zupt_error_t insole_zupt_cov_of_velocity(const insole_zupt_cov_t *P, inso
 
 /* In closed blocks, for R = r I: P_xv+ = r K_x and P_xy+ = P_xy - K_x P_vy. In the row of v no
  * difference is formed. */
-static inline insole_zupt_error_t correct_velocity(insole_zupt_cov_t *P, insole_sym3_t W,
-                                                   insole_real_t r, insole_vec3_t z, bool has_bias)
+INSOLE_FLAT insole_zupt_error_t insole_zupt_cov_correct_velocity(insole_zupt_cov_t *P,
+                                                                 insole_sym3_t W, insole_real_t r,
+                                                                 insole_vec3_t z, bool has_bias)
 {
     const insole_real_t minus = INSOLE_R(-1.0);
     insole_zupt_error_t dx;
@@ -131,13 +132,6 @@ static inline insole_zupt_error_t correct_velocity(insole_zupt_cov_t *P, insole_
     dx.v = insole_sym3_mul_vec(K_v, z);
     P->vv = insole_sym3_scale(K_v, r);
     return dx;
-}
-
-INSOLE_FLAT insole_zupt_error_t insole_zupt_cov_correct_velocity(insole_zupt_cov_t *P,
-                                                                 insole_sym3_t W, insole_real_t r,
-                                                                 insole_vec3_t z, bool has_bias)
-{
-    return has_bias ? correct_velocity(P, W, r, z, true) : correct_velocity(P, W, r, z, false);
 }
 
 insole_zupt_error_t insole_zupt_cov_of_height(const insole_zupt_cov_t *P)
