@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/move/zupt_cov.h"
 
-/* Phi = [I I.dt 0 0; 0 I -U G; 0 0 I 0; 0 0 0 I] [TwoOrder (20)-(21)], U = [u]x, G = -C dt. */
+/* Phi = [I I.dt 0 0; 0 I -U G; 0 0 I 0; 0 0 0 I], U = [u]x, G = -C dt. */
 typedef struct {
     insole_vec3_t u;
     insole_mat3_t G;
@@ -56,7 +56,7 @@ static inline void gain_rows(const phi_t *phi, insole_zupt_cov_t *P)
     insole_sym3_t *vv = &P->vv;
     const insole_mat3_t *a = &P->va, *b = &P->vb;
     insole_mat3_t U_aa = insole_mat3_skew_mul(phi->u, insole_sym3_full(P->aa));
-    insole_mat3_t va = insole_mat3_sub(P->va, U_aa), vb = P->vb; /* [TwoOrder (24)] */
+    insole_mat3_t va = insole_mat3_sub(P->va, U_aa), vb = P->vb;
     if (phi->has_bias) {
         va = insole_mat3_add(va, insole_mat3_mul_t(phi->G, P->ab));
         vb = insole_mat3_sub(vb, insole_mat3_skew_mul(phi->u, P->ab));
@@ -78,7 +78,7 @@ INSOLE_FLAT void insole_zupt_cov_propagate(insole_zupt_cov_t *P, insole_vec3_t u
                                            const insole_mat3_t *C, insole_real_t dt_s,
                                            bool has_bias)
 {
-    if (has_bias) {
+    if (has_bias) { /* [TwoOrder (20)-(21)], [TwoOrder (24)] */
         phi_t phi = {u, insole_mat3_scale(*C, -dt_s), dt_s, true};
         move_rows(&phi, P);
         gain_rows(&phi, P);
