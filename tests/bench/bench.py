@@ -5,7 +5,8 @@ usage: bench.py host BENCH              counted by callgrind
        bench.py m4 QEMU... IMAGE        counted by the emulated board
        bench.py same_bits BENCH QEMU... IMAGE
        bench.py renew BENCH QEMU... IMAGE    writes expected.csv; in a build tree this is
-                                             `cmake --build build --target bench_expected`
+                                             `cmake --build build --target bench_expected`;
+                                             cycles are estimated by cycles.py for some cases
 
 Exit 77: what it takes is not installed, or another compiler made the code.
 """
@@ -17,11 +18,20 @@ import sys
 import tempfile
 from pathlib import Path
 
+import cycles
+
 EXPECTED = Path(__file__).with_name("expected.csv")
 LIMITS = Path(__file__).with_name("limits.csv")
 TOLERANCE = 0.03
 SKIPPED = 77
 COLUMNS = ("host", "m4", "m4_max")
+CYCLES = "m4_cycles"
+ESTIMATED = ("insole_screen_push", "insole_still_bias_push", "insole_zero_velocity_push_next",
+             "insole_zupt_ekf_predict_9", "insole_zupt_ekf_predict_12",
+             "insole_zupt_ekf_correct_9", "insole_zupt_ekf_correct_12",
+             "insole_foot_tracker_imu_next", "insole_foot_tracker_imu_next_9",
+             "insole_particle_filter_1000", "insole_particle_filter_two_order_1000",
+             "insole_attitude_push_ekf", "insole_attitude_push_ukf")
 
 
 class Skip(Exception):
@@ -77,15 +87,17 @@ def rows_of(text):
 def read_expected(text):
     """({machine: compiler}, {case: {column: count}})"""
     compilers = dict(re.findall(r"^# (\w+): compiler (.+)$", text, re.M))
-    return compilers, {row["name"]: {c: int(row[c]) for c in COLUMNS} for row in rows_of(text)}
+    return compilers, {row["name"]: {c: int(row[c]) for c in COLUMNS + (CYCLES,) if row.get(c)}
+                       for row in rows_of(text)}
 
 
 def write_expected(compilers, cases):
     lines = ["# SPDX-License-Identifier: MIT",
-             "# Instructions per call: mean on the host (x86-64), mean and largest on a Cortex-M4F."]
+             "# Instructions per call: mean on the host (x86-64), mean and largest on a Cortex-M4F;",
+             "# of some their cycles there, as cycles.py estimates them."]
     lines += [f"# {machine}: compiler {version}" for machine, version in compilers.items()]
-    lines.append(",".join(("name",) + COLUMNS))
-    lines += [",".join([name] + [str(counts[c]) for c in COLUMNS])
+    lines.append(",".join(("name",) + COLUMNS + (CYCLES,)))
+    lines += [",".join([name] + [str(counts.get(c, "")) for c in COLUMNS + (CYCLES,)])
               for name, counts in cases.items()]
     return "\n".join(lines) + "\n"
 
@@ -148,6 +160,8 @@ def renew(bench, emulated):
     host_compiler, host = measure_host(bench)
     m4_compiler, m4 = measure_m4(emulated)
     cases = {name: {**host[name], **counts} for name, counts in m4.items()}
+    for name in ESTIMATED:
+        cases[name][CYCLES] = cycles.measure("arm-none-eabi-objdump", name, emulated)[0]
     EXPECTED.write_text(write_expected({"host": host_compiler, "m4": m4_compiler}, cases))
     return []
 

@@ -20,10 +20,13 @@ TITLES = {
     "insole_zupt_ekf_correct_9": "filter with 9 states, zero-velocity correction",
     "insole_zupt_ekf_correct_12": "filter with 12 states, zero-velocity correction",
     "insole_foot_tracker_imu_next": "the whole tracker, a sample of a walk (12 states)",
+    "insole_foot_tracker_imu_next_9": "the same with 9 states",
     "insole_particle_filter_1000":
         "particle filter, a particle's stride: 8 access points heard, 1,000 walls",
     "insole_particle_filter_two_order_1000":
         "the same by the paper: inertial position, a range, inside or not",
+    "insole_attitude_push_ekf": "attitude of a phone by Kalman filter, a sample",
+    "insole_attitude_push_ukf": "the same unscented",
 }
 PARTS = {"insole_particle_filter": 500}  # a call works through so many, a row tells of one
 
@@ -33,11 +36,12 @@ def table():
     with open(path, encoding="ascii") as file:
         rows = {row["name"]: row for row in
                 csv.DictReader(line for line in file if not line.startswith("#"))}
-    lines = ["| call | x86-64 | Cortex-M4F, mean | largest |", "|---|---|---|---|"]
+    lines = ["| call | x86-64 | Cortex-M4F, mean | largest | cycles |", "|---|---|---|---|---|"]
     for name, title in TITLES.items():
         parts = next((n for start, n in PARTS.items() if name.startswith(start)), 1)
-        host, m4, largest = (round(int(rows[name][c]) / parts) for c in ("host", "m4", "m4_max"))
-        lines.append(f"| {title} | {host} | {m4} | {largest} |")
+        counts = (round(int(rows[name][c]) / parts)
+                  for c in ("host", "m4", "m4_max", "m4_cycles"))
+        lines.append(f"| {title} | {' | '.join(map(str, counts))} |")
     return "\n".join(lines)
 
 

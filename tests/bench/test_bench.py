@@ -3,6 +3,7 @@
 import unittest
 
 import bench
+import cycles
 
 REPORT = "compiler,12.2.0\ninsole_sin,256,40,55,abc123\n"
 CALLGRIND = """fn=run_case
@@ -40,9 +41,56 @@ class Reading(unittest.TestCase):
 
     def test_expectations_survive_writing_and_reading(self):
         compilers = {"host": "12.2.0", "m4": "12.2.1 20221205"}
-        cases = {"a": {"host": 1, "m4": 2, "m4_max": 3}}
+        cases = {"a": {"host": 1, "m4": 2, "m4_max": 3},
+                 "b": {"host": 1, "m4": 2, "m4_max": 3, "m4_cycles": 4}}
         text = bench.write_expected(compilers, cases)
         self.assertEqual(bench.read_expected(text), (compilers, cases))
+
+
+LISTING = """
+00000100 <call_f>:
+     100:\tee77 7a87 \tvadd.f32\ts15, s15, s14
+     104:\teee7 7a27 \tvmul.f32\ts15, s14, s15
+     108:\teec7 7a26 \tvdiv.f32\ts15, s14, s13
+     10c:\ted97 7a00 \tvldr\ts14, [r7]
+     110:\tb530      \tpush\t{r4, r5, lr}
+     112:\te001      \tb.n\t118 <call_f+0x18>
+     114:\tbf00      \tnop
+     118:\tbd30      \tpop\t{r4, r5, pc}
+
+00000200 <ticks_of>:
+     200:\tbf00      \tnop
+"""
+
+
+class Cycles(unittest.TestCase):
+    code, names = cycles.read_code(LISTING)
+
+    def cost(self, at, then):
+        after = {0x100: 0x104, 0x104: 0x108, 0x108: 0x10C, 0x10C: 0x110, 0x110: 0x112,
+                 0x112: 0x114, 0x118: 0x200}
+        return cycles.cycles_of(self.code, after, (at, then))
+
+    def test_a_result_used_at_once_is_waited_for(self):
+        self.assertEqual(self.cost(0x100, 0x104), 2)
+        self.assertEqual(self.cost(0x104, 0x108), 1)
+
+    def test_what_takes_longer(self):
+        self.assertEqual(self.cost(0x108, 0x10C), 14)
+        self.assertEqual(self.cost(0x10C, 0x110), 2)
+        self.assertEqual(self.cost(0x110, 0x112), 4)
+
+    def test_branches_cost_when_they_are_taken(self):
+        self.assertEqual(self.cost(0x112, 0x118), 3)
+        self.assertEqual(self.cost(0x112, 0x114), 1)
+
+    def test_a_case_is_counted_from_its_call_to_its_return(self):
+        lines = [b"Trace 0: 0x7f [0/%08x/0/0] f" % at
+                 for at in (0x300, 0x100, 0x104, 0x200, 0x104, 0x100, 0x118, 0x200)]
+        calls, pairs = cycles.counted(lines, 0x100, {0x200})
+        self.assertEqual(calls, 2)
+        self.assertEqual(dict(pairs), {(0x100, 0x104): 1, (0x104, 0x200): 1, (0x100, 0x118): 1,
+                                       (0x118, 0x200): 1})
 
 
 class Comparing(unittest.TestCase):
