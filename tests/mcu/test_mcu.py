@@ -68,9 +68,11 @@ class Rows(unittest.TestCase):
             self.assertIn(word, what)
 
     def test_a_changed_byte_is_seen(self):
-        broken = bytearray(HALF)
-        broken[len(broken) // 2] ^= 1
-        what = " ".join(same_rows.differences(self.plain, said(bytes(broken)), 1))
+        frames = list(same_rows.frames(HALF))
+        broken = bytearray(frames[150])
+        broken[10] ^= 1
+        frames[150] = bytes(broken)
+        what = " ".join(same_rows.differences(self.plain, said(b"".join(frames)), 1))
         self.assertIn("bad 1", what)
 
     def test_silence_is_no_agreement(self):

@@ -6,9 +6,11 @@
 find_program(INSOLE_MCU_COMPILER arm-none-eabi-gcc)
 find_package(Python3 COMPONENTS Interpreter)
 
-# Images have the tables of a building, which mcu/ lets the program make, and compute in float.
+# Images have the tables of a building, which mcu/ lets the program make, and compute in float. It is
+# simulated, which takes a minute in builds that look after themselves.
 set(INSOLE_MCU_SITE "")
-if(TARGET insole_program AND TARGET insole_sim AND Python3_FOUND AND NOT INSOLE_DOUBLE)
+if(TARGET insole_program AND TARGET insole_sim AND Python3_FOUND AND NOT INSOLE_DOUBLE
+   AND CMAKE_BUILD_TYPE STREQUAL "Release")
   set(INSOLE_MCU_SITE ${PROJECT_BINARY_DIR}/mcu/site.c)
 endif()
 
