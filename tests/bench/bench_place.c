@@ -136,13 +136,14 @@ static void call_insole_kde_fix_solve_gauss(uint32_t call)
 }
 
 static const bench_case_t cases[] = {
-    {"insole_ml_fix_solve_gauss", 20u, begin_ml_gauss, make_scan, call_insole_ml_fix_solve_gauss},
+    {"insole_ml_fix_solve_gauss", 20u, begin_ml_gauss, make_scan, call_insole_ml_fix_solve_gauss,
+     NULL},
     {"insole_ml_fix_solve_histogram", 20u, begin_ml_histogram, make_scan,
-     call_insole_ml_fix_solve_histogram},
+     call_insole_ml_fix_solve_histogram, NULL},
     {"insole_kde_fix_solve_sorensen", 20u, begin_kde_sorensen, make_scan,
-     call_insole_kde_fix_solve_sorensen},
-    {"insole_kde_fix_solve_gauss", 20u, begin_kde_gauss, make_scan,
-     call_insole_kde_fix_solve_gauss},
+     call_insole_kde_fix_solve_sorensen, NULL},
+    {"insole_kde_fix_solve_gauss", 20u, begin_kde_gauss, make_scan, call_insole_kde_fix_solve_gauss,
+     NULL},
 };
 
 const bench_table_t bench_place = BENCH_TABLE(cases);
