@@ -264,7 +264,7 @@ static void face(insole_phone_walk_t *w, const insole_attitude_t *attitude, cons
                                        imu->t_us);
     }
     if (w->gait.carry) {
-        (void)insole_carry_push(w->gait.carry, imu->t_us, imu->accel_mps2, NULL);
+        (void)insole_carry_push(w->gait.carry, imu->t_us, imu->accel_mps2, &imu->gyro_radps, NULL);
     }
 }
 

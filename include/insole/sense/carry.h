@@ -7,7 +7,7 @@
  *      static insole_carry_t carry;
  *      insole_carry_init(&carry, &insole_carry_defaults);
  *      on each sample, 20 to 400 Hz:
- *          insole_carry_push(&carry, t_us, accel_mps2, NULL);
+ *          insole_carry_push(&carry, t_us, accel_mps2, &gyro_radps, NULL);
  *          if (insole_carry_next(&carry, &forest, &news) == INSOLE_OK && news.told >= 0)
  *              use(forest.names[news.told]);                 once a second, as the walk goes on
  *
@@ -69,11 +69,12 @@ insole_status_t insole_carry_init(insole_carry_t *carry, const insole_carry_conf
 
 /** Takes a sample: insole_carry_window_push. Refusals are counted in `carry->window.refused`. */
 insole_status_t insole_carry_push(insole_carry_t *carry, uint64_t t_us, insole_vec3_t accel_mps2,
-                                  const insole_vec3_t *up);
+                                  const insole_vec3_t *gyro_radps, const insole_vec3_t *up);
 
 /** What the newest window says, once.
- *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE when there is none; INSOLE_ERR_DATA for a damaged
- *          table: the window then still waits */
+ *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE when there is none, or one without the gyroscope that
+ *          the table asks about: it is gone then; INSOLE_ERR_DATA for a damaged table: the window
+ *          then still waits */
 insole_status_t insole_carry_next(insole_carry_t *carry, const insole_carry_forest_t *forest,
                                   insole_carry_news_t *news);
 
