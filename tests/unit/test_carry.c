@@ -35,6 +35,14 @@ static void begin(const insole_carry_config_t *config)
     ck_assert_int_eq(insole_carry_init(&carry, config), INSOLE_OK);
 }
 
+/* Three windows in a row tell a position. */
+static void begin_three(void)
+{
+    insole_carry_config_t three = insole_carry_defaults;
+    three.switch_windows = 3;
+    begin(&three);
+}
+
 /* Walks for a second. @return what the window that it ends says */
 static insole_status_t walk_one_second(const carry_gait_t *gait)
 {
@@ -84,7 +92,7 @@ END_TEST
 
 START_TEST(a_short_change_is_not_told)
 {
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&WEAK_GAIT, WEAK);
     for (int n = 0; n < 5; n++) {
         walk_one_second(&STRONG_GAIT);
@@ -116,7 +124,7 @@ END_TEST
 
 START_TEST(rest_keeps_the_position)
 {
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&STRONG_GAIT, STRONG);
     walk_one_second(&REST);
     for (int i = 0; i < 10; i++) {
@@ -126,6 +134,7 @@ START_TEST(rest_keeps_the_position)
         }
     }
     insole_carry_config_t config = insole_carry_defaults;
+    config.switch_windows = 3;
     config.still_mps2 = 0; /* off */
     begin(&config);
     walk_one_second(&REST);
@@ -137,7 +146,7 @@ END_TEST
 START_TEST(a_pose_never_seen_is_taken_for_another)
 {
     static const carry_gait_t JUGGLED = {0.41, 60.0, 80.0, 95.0, 0.3, 0.0};
-    begin(&insole_carry_defaults);
+    begin_three();
     walk_one_second(&JUGGLED);
     for (int i = 0; i < 10; i++) {
         ck_assert_int_eq(walk_one_second(&JUGGLED), INSOLE_OK);
@@ -149,7 +158,7 @@ END_TEST
 
 START_TEST(a_gap_keeps_the_position)
 {
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&STRONG_GAIT, STRONG);
     now_us += 3600000000u;
     ck_assert_int_eq(walk_one_second(&WEAK_GAIT), INSOLE_ERR_STATE);
@@ -164,7 +173,7 @@ START_TEST(a_damaged_table_is_refused)
     static const insole_carry_node_t LOOP[] = {{0, 0, 0, 0}};
     static const uint16_t ONE_TREE[] = {0, 1};
     static const insole_carry_forest_t DAMAGED = {LOOP, ONE_TREE, NAMES, 1, 3};
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&STRONG_GAIT, STRONG);
     for (int i = 0; i < INSOLE_CARRY_HALF; i++) {
         insole_vec3_t accel = insole_vec3(0, 0, (insole_real_t)(9 + 5 * (i % 3)));
@@ -187,7 +196,7 @@ START_TEST(a_table_about_turns_needs_a_gyroscope)
         {INSOLE_R(0.1), INSOLE_CARRY_TURN, INSOLE_CARRY_LEAF(0), INSOLE_CARRY_LEAF(1)}};
     static const uint16_t ONE_TREE[] = {0, 1};
     static const insole_carry_forest_t TABLE = {TURNS, ONE_TREE, NAMES, 1, 2};
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&STRONG_GAIT, STRONG);
     walk_one_second(&STRONG_GAIT);
     for (int i = 0; i < INSOLE_CARRY_HALF; i++) {
@@ -216,7 +225,7 @@ END_TEST
 START_TEST(bad_samples_are_refused)
 {
     insole_vec3_t good = insole_vec3(0, 0, 9), bad = insole_vec3(0, (insole_real_t)NAN, 9);
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&STRONG_GAIT, STRONG);
     ck_assert_int_eq(insole_carry_push(NULL, now_us, good, NULL, NULL), INSOLE_ERR_NULL);
     ASSERT_REFUSED(carry, carry.window.refused, insole_carry_push(&carry, now_us, bad, NULL, NULL),
@@ -254,7 +263,7 @@ END_TEST
 
 START_TEST(a_copy_goes_on_alike)
 {
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&WEAK_GAIT, WEAK);
     walk_one_second(&STRONG_GAIT);
     insole_carry_t saved = carry;

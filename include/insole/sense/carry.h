@@ -34,7 +34,7 @@ extern "C" {
         "low-pass that finds gravity; forests are grown on the default")                          \
     KEY(REAL, still_mps2, 0.5, 0.0, 10.0, "m/s^2",                                                \
         "a window where |a| scatters less is at rest and tells nothing; 0 = off")                 \
-    KEY(INT, switch_windows, 3, 1, 60, "",                                                        \
+    KEY(INT, switch_windows, 5, 1, 60, "",                                                        \
         "a new position is told when it has won so many windows in a row; 1 = at once")           \
     KEY(REAL, min_share, 0.5, 0.0, 1.0, "",                                                       \
         "a window is won with at least this share of the trees; 0 = any")
