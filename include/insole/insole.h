@@ -82,6 +82,7 @@
 #include "insole/place/wall_losses.h"
 #include "insole/sense/carry.h"
 #include "insole/sense/carry_forest.h"
+#include "insole/sense/carry_table.h"
 #include "insole/sense/carry_window.h"
 #include "insole/sense/gyro_clip.h"
 #include "insole/sense/rhythm.h"

@@ -22,9 +22,10 @@ insole_status_t insole_carry_init(insole_carry_t *carry, const insole_carry_conf
 }
 
 insole_status_t insole_carry_push(insole_carry_t *carry, uint64_t t_us, insole_vec3_t accel_mps2,
-                                  const insole_vec3_t *up)
+                                  const insole_vec3_t *gyro_radps, const insole_vec3_t *up)
 {
-    return carry ? insole_carry_window_push(&carry->window, t_us, accel_mps2, up) : INSOLE_ERR_NULL;
+    return carry ? insole_carry_window_push(&carry->window, t_us, accel_mps2, gyro_radps, up)
+                 : INSOLE_ERR_NULL;
 }
 
 bool insole_carry_is_still(const insole_carry_config_t *config,
@@ -63,7 +64,7 @@ insole_status_t insole_carry_next(insole_carry_t *carry, const insole_carry_fore
     if (!insole_carry_is_still(&carry->config, &features)) {
         status = insole_carry_forest_vote(forest, &features, &votes);
         if (status != INSOLE_OK) {
-            carry->window.is_new = true;
+            carry->window.is_new = status == INSOLE_ERR_DATA;
             return status;
         }
         judge(carry, &votes);

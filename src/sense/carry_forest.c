@@ -4,7 +4,7 @@
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
-enum { NO_CLASS = -1 };
+enum { NO_CLASS = -1, NO_GYRO = -2 };
 
 static bool is_sized(const insole_carry_forest_t *forest)
 {
@@ -58,17 +58,20 @@ insole_status_t insole_carry_forest_check(const insole_carry_forest_t *forest)
     return is_good ? INSOLE_OK : INSOLE_ERR_DATA;
 }
 
-/* @return the class that the tree votes for, or NO_CLASS */
-static int32_t walk(const insole_carry_forest_t *forest, uint32_t tree, const insole_real_t *value)
+/* @return the class that the tree votes for, or NO_CLASS, or NO_GYRO where it would need one */
+static int32_t walk(const insole_carry_forest_t *forest, uint32_t tree,
+                    const insole_carry_features_t *features)
 {
+    uint32_t known = features->has_gyro ? INSOLE_CARRY_FEATURES : INSOLE_CARRY_ACCEL;
     const insole_carry_node_t *nodes = &forest->nodes[forest->roots[tree]];
     uint32_t count = node_count(forest, tree), at = 0u;
     while (at < count) {
         const insole_carry_node_t *node = &nodes[at];
-        if (node->feature >= INSOLE_CARRY_FEATURES) {
-            return NO_CLASS;
+        if (node->feature >= known) {
+            return node->feature < INSOLE_CARRY_FEATURES ? NO_GYRO : NO_CLASS;
         }
-        uint32_t link = value[node->feature] <= node->threshold ? node->at_most : node->above;
+        uint32_t link =
+            features->value[node->feature] <= node->threshold ? node->at_most : node->above;
         if (!is_link(forest, link, at, count)) {
             return NO_CLASS;
         }
@@ -113,9 +116,9 @@ insole_status_t insole_carry_forest_vote(const insole_carry_forest_t *forest,
     }
     uint32_t count[INSOLE_CARRY_CLASSES] = {0u};
     for (uint32_t tree = 0u; tree < forest->tree_count; tree++) {
-        int32_t vote = walk(forest, tree, features->value);
-        if (vote == NO_CLASS) {
-            return INSOLE_ERR_DATA;
+        int32_t vote = walk(forest, tree, features);
+        if (vote < 0) {
+            return vote == NO_GYRO ? INSOLE_ERR_STATE : INSOLE_ERR_DATA;
         }
         count[vote]++;
     }

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "insole/move/heading.h"
+#include "insole/sense/carry_table.h"
 
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
@@ -11,6 +12,8 @@
 const insole_phone_walk_config_t insole_phone_walk_defaults = {
     INSOLE_PHONE_WALK_KEYS(INSOLE_CONFIG_DEFAULT){INSOLE_STEP_KEYS(INSOLE_CONFIG_DEFAULT)},
     {INSOLE_STEP_LENGTH_KEYS(INSOLE_CONFIG_DEFAULT)}};
+
+enum { FACES_ANY = 1, FACES_CARRIED = 2 };
 
 /* A peak without one before it has no duration yet. */
 static const uint64_t LONGEST_STEP_US = 1000000u;
@@ -76,8 +79,34 @@ int32_t insole_phone_walk_position(const insole_phone_walk_t *walk)
 static bool goes_by_gait(const insole_phone_walk_t *w)
 {
     int32_t position = insole_phone_walk_position(w);
-    bool faces_any = position >= 0 ? position != w->config.ahead_position : w->config.faces == 1;
-    return w->gait.heading && faces_any;
+    bool is_aside = position >= 0 && position != w->config.ahead_position;
+    return w->gait.heading &&
+           (w->config.faces == FACES_ANY || (w->config.faces == FACES_CARRIED && is_aside));
+}
+
+/* That of the position where it is asked and has one; else 1. */
+static insole_real_t of_position(const insole_phone_walk_t *w, insole_real_t ear,
+                                 insole_real_t swing, insole_real_t pocket)
+{
+    int32_t position =
+        w->config.faces == FACES_CARRIED ? insole_phone_walk_position(w) : INSOLE_CARRY_NONE;
+    switch (position) {
+    case INSOLE_CARRY_EAR:
+        return ear;
+    case INSOLE_CARRY_SWING:
+        return swing;
+    case INSOLE_CARRY_POCKET:
+        return pocket;
+    default:
+        return ONE;
+    }
+}
+
+static void follow_position(insole_phone_walk_t *w)
+{
+    const insole_phone_walk_config_t *c = &w->config;
+    insole_real_t times = of_position(w, c->rise_ear, c->rise_swing, c->rise_pocket);
+    w->steps.config.rise_share = insole_min(times * c->step.rise_share, ONE);
 }
 
 static void forget_askew(insole_phone_walk_t *w)
@@ -98,6 +127,7 @@ bool insole_phone_walk_work(insole_phone_walk_t *walk)
     }
     if (news.told != before) {
         forget_askew(walk);
+        follow_position(walk);
     }
     return true;
 }
@@ -172,6 +202,10 @@ static bool pace_of(const insole_phone_walk_t *w, const insole_footfall_t *footf
     if (goes_by_gait(w)) {
         pace->heading_rad = insole_wrap_pi(pace->heading_rad + askew(w));
         var_ahead_rad2 = askew_variance(w);
+    }
+    if (w->config.step_length.model != INSOLE_STEP_LENGTH_CONSTANT) {
+        pace->length_m *=
+            of_position(w, w->config.length_ear, w->config.length_swing, w->config.length_pocket);
     }
     pace->var_length_m2 = insole_square(w->config.sigma_length_share * pace->length_m);
     pace->var_heading_rad2 = w->yaw_rad2 + var_ahead_rad2;
@@ -264,7 +298,7 @@ static void face(insole_phone_walk_t *w, const insole_attitude_t *attitude, cons
                                        imu->t_us);
     }
     if (w->gait.carry) {
-        (void)insole_carry_push(w->gait.carry, imu->t_us, imu->accel_mps2, NULL);
+        (void)insole_carry_push(w->gait.carry, imu->t_us, imu->accel_mps2, &imu->gyro_radps, NULL);
     }
 }
 

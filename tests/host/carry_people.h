@@ -17,8 +17,9 @@ static const char *const people_positions[PEOPLE_POSITIONS] = {"hand", "pocket",
 /** A person's gait with the phone in a position. */
 static inline carry_gait_t people_gait(int person, int position)
 {
-    static const carry_gait_t gaits[PEOPLE_POSITIONS] = {
-        {1.05, 2.0, 0.5, 0.4, 0.3}, {1.05, 4.5, 3.0, 2.0, 0.9}, {1.05, 1.2, 1.0, 6.0, 1.7}};
+    static const carry_gait_t gaits[PEOPLE_POSITIONS] = {{1.05, 2.0, 0.5, 0.4, 0.3, 1.5},
+                                                         {1.05, 4.5, 3.0, 2.0, 0.9, 0.0},
+                                                         {1.05, 1.2, 1.0, 6.0, 1.7, 0.0}};
     carry_gait_t gait = gaits[position];
     double vigour = 0.85 + 0.15 * person;
     gait.stride_s += 0.06 * (person - 1);

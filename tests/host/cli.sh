@@ -638,7 +638,7 @@ hands='hand=hand+inhand,pocket'
 refuses 2 'insole train-carry: expected one INDEX' train-carry
 refuses 2 'insole train-carry: --depth 8: expected a whole number from 1 to 7' \
     train-carry people.csv --depth 8
-refuses 2 'insole train-carry: --features some: expected paper or all' \
+refuses 2 'insole train-carry: --features some: expected paper, accel or all' \
     train-carry people.csv --features some
 refuses 2 'insole train-carry: --name 2nd: expected a letter, then letters, digits and underscores, at most 40' \
     train-carry people.csv --name 2nd

@@ -12,7 +12,7 @@
 
 /* Grown by the program, with these settings, when the suite was built. */
 extern const insole_carry_forest_t people_forest;
-static const forest_settings_t PEOPLE_SETTINGS = {12, 7, 4, 300, INSOLE_CARRY_FEATURES, 5u};
+static const forest_settings_t PEOPLE_SETTINGS = {12, 7, 4, 300, INSOLE_CARRY_ACCEL, 5u};
 
 static failure_t failure;
 static carry_index_t carry_index;
@@ -102,7 +102,7 @@ START_TEST(windows_are_the_devices)
                 continue;
             }
             insole_vec3_t a = insole_vec3((insole_real_t)x, (insole_real_t)y, (insole_real_t)z);
-            insole_carry_window_push(&device, (uint64_t)(t * 1e6 + 0.5), a, NULL);
+            insole_carry_window_push(&device, (uint64_t)(t * 1e6 + 0.5), a, NULL, NULL);
             if (insole_carry_window_next(&device, &features) == INSOLE_OK) {
                 ck_assert_mem_eq(&windows.rows[at].features, &features, sizeof features);
                 ck_assert_uint_eq(windows.rows[at].log, log);
@@ -148,7 +148,7 @@ START_TEST(people_never_seen_are_known)
     insole_carry_votes_t votes;
     int right = 0, all = 0;
     load_people(true);
-    settings.features = _i == 0 ? INSOLE_CARRY_PAPER : INSOLE_CARRY_FEATURES;
+    settings.features = _i == 0 ? INSOLE_CARRY_PAPER : INSOLE_CARRY_ACCEL;
     for (size_t log = 0; log < 3; log++) {
         is_used[log] = false; /* the first person */
     }

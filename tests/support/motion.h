@@ -42,6 +42,11 @@ static inline double d3_dot(d3_t a, d3_t b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+static inline d3_t d3_cross(d3_t a, d3_t b)
+{
+    return d3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
 static inline double d3_norm(d3_t a)
 {
     return sqrt(d3_dot(a, a));

@@ -21,9 +21,9 @@ static const uint16_t ROOTS[] = {0, 1, 2, 3, 5};
 static const char *const NAMES[] = {"weak", "strong", "swung"};
 static const insole_carry_forest_t FOREST = {NODES, ROOTS, NAMES, 4, 3};
 
-static const carry_gait_t WEAK_GAIT = {1.0, 1.5, 0.2, 0.1, 0.3};
-static const carry_gait_t STRONG_GAIT = {1.0, 6.0, 0.2, 0.1, 0.3};
-static const carry_gait_t REST = {1.0, 0.05, 0.0, 0.0, 0.3};
+static const carry_gait_t WEAK_GAIT = {1.0, 1.5, 0.2, 0.1, 0.3, 0.0};
+static const carry_gait_t STRONG_GAIT = {1.0, 6.0, 0.2, 0.1, 0.3, 0.0};
+static const carry_gait_t REST = {1.0, 0.05, 0.0, 0.0, 0.3, 0.0};
 
 static insole_carry_t carry;
 static insole_carry_news_t news;
@@ -35,6 +35,14 @@ static void begin(const insole_carry_config_t *config)
     ck_assert_int_eq(insole_carry_init(&carry, config), INSOLE_OK);
 }
 
+/* Three windows in a row tell a position. */
+static void begin_three(void)
+{
+    insole_carry_config_t three = insole_carry_defaults;
+    three.switch_windows = 3;
+    begin(&three);
+}
+
 /* Walks for a second. @return what the window that it ends says */
 static insole_status_t walk_one_second(const carry_gait_t *gait)
 {
@@ -42,7 +50,7 @@ static insole_status_t walk_one_second(const carry_gait_t *gait)
         d3_t f = carry_force(gait, (double)now_us * 1e-6);
         insole_vec3_t accel =
             insole_vec3((insole_real_t)f.x, (insole_real_t)f.y, (insole_real_t)f.z);
-        ck_assert(insole_carry_push(&carry, now_us, accel, NULL) == INSOLE_OK);
+        ck_assert(insole_carry_push(&carry, now_us, accel, NULL, NULL) == INSOLE_OK);
         now_us += POINT_US;
     }
     return insole_carry_next(&carry, &FOREST, &news);
@@ -84,7 +92,7 @@ END_TEST
 
 START_TEST(a_short_change_is_not_told)
 {
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&WEAK_GAIT, WEAK);
     for (int n = 0; n < 5; n++) {
         walk_one_second(&STRONG_GAIT);
@@ -100,7 +108,7 @@ END_TEST
 START_TEST(a_window_is_won_by_a_share)
 {
     static const double SHARES[] = {0.0, 0.5, 0.75, 0.76, 1.0};
-    static const carry_gait_t BETWEEN = {1.0, 3.62, 0.2, 0.1, 0.3};
+    static const carry_gait_t BETWEEN = {1.0, 3.62, 0.2, 0.1, 0.3, 0.0};
     insole_carry_config_t config = insole_carry_defaults;
     config.min_share = (insole_real_t)SHARES[_i];
     begin(&config);
@@ -116,7 +124,7 @@ END_TEST
 
 START_TEST(rest_keeps_the_position)
 {
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&STRONG_GAIT, STRONG);
     walk_one_second(&REST);
     for (int i = 0; i < 10; i++) {
@@ -126,6 +134,7 @@ START_TEST(rest_keeps_the_position)
         }
     }
     insole_carry_config_t config = insole_carry_defaults;
+    config.switch_windows = 3;
     config.still_mps2 = 0; /* off */
     begin(&config);
     walk_one_second(&REST);
@@ -136,8 +145,8 @@ END_TEST
 /* A pose that the table never saw: something of the table is told, and nothing breaks. */
 START_TEST(a_pose_never_seen_is_taken_for_another)
 {
-    static const carry_gait_t JUGGLED = {0.41, 60.0, 80.0, 95.0, 0.3};
-    begin(&insole_carry_defaults);
+    static const carry_gait_t JUGGLED = {0.41, 60.0, 80.0, 95.0, 0.3, 0.0};
+    begin_three();
     walk_one_second(&JUGGLED);
     for (int i = 0; i < 10; i++) {
         ck_assert_int_eq(walk_one_second(&JUGGLED), INSOLE_OK);
@@ -149,7 +158,7 @@ END_TEST
 
 START_TEST(a_gap_keeps_the_position)
 {
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&STRONG_GAIT, STRONG);
     now_us += 3600000000u;
     ck_assert_int_eq(walk_one_second(&WEAK_GAIT), INSOLE_ERR_STATE);
@@ -164,11 +173,11 @@ START_TEST(a_damaged_table_is_refused)
     static const insole_carry_node_t LOOP[] = {{0, 0, 0, 0}};
     static const uint16_t ONE_TREE[] = {0, 1};
     static const insole_carry_forest_t DAMAGED = {LOOP, ONE_TREE, NAMES, 1, 3};
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&STRONG_GAIT, STRONG);
     for (int i = 0; i < INSOLE_CARRY_HALF; i++) {
         insole_vec3_t accel = insole_vec3(0, 0, (insole_real_t)(9 + 5 * (i % 3)));
-        insole_carry_push(&carry, now_us, accel, NULL);
+        insole_carry_push(&carry, now_us, accel, NULL, NULL);
         now_us += POINT_US;
     }
     ASSERT_UNCHANGED(carry, insole_carry_next(&carry, &DAMAGED, &news), INSOLE_ERR_DATA);
@@ -180,18 +189,51 @@ START_TEST(a_damaged_table_is_refused)
 }
 END_TEST
 
+/* The window is gone then, and the position stays. */
+START_TEST(a_table_about_turns_needs_a_gyroscope)
+{
+    static const insole_carry_node_t TURNS[] = {
+        {INSOLE_R(0.1), INSOLE_CARRY_TURN, INSOLE_CARRY_LEAF(0), INSOLE_CARRY_LEAF(1)}};
+    static const uint16_t ONE_TREE[] = {0, 1};
+    static const insole_carry_forest_t TABLE = {TURNS, ONE_TREE, NAMES, 1, 2};
+    begin_three();
+    settle(&STRONG_GAIT, STRONG);
+    walk_one_second(&STRONG_GAIT);
+    for (int i = 0; i < INSOLE_CARRY_HALF; i++) {
+        d3_t f = carry_force(&STRONG_GAIT, (double)now_us * 1e-6);
+        insole_vec3_t accel = insole_vec3(0, 0, (insole_real_t)f.z);
+        ck_assert(insole_carry_push(&carry, now_us, accel, NULL, NULL) == INSOLE_OK);
+        now_us += POINT_US;
+    }
+    ck_assert_int_eq(insole_carry_next(&carry, &TABLE, &news), INSOLE_ERR_STATE);
+    ck_assert_int_eq(insole_carry_next(&carry, &FOREST, &news), INSOLE_ERR_STATE);
+    ck_assert_int_eq(carry.told, STRONG);
+    for (int i = 0; i < 6 * INSOLE_CARRY_HALF; i++) {
+        d3_t f = carry_force(&STRONG_GAIT, (double)now_us * 1e-6);
+        insole_vec3_t accel = insole_vec3(0, 0, (insole_real_t)f.z);
+        insole_vec3_t gyro = insole_vec3((insole_real_t)sin(5e-6 * (double)now_us), 0, 0);
+        ck_assert(insole_carry_push(&carry, now_us, accel, &gyro, NULL) == INSOLE_OK);
+        now_us += POINT_US;
+        insole_status_t status = insole_carry_next(&carry, &TABLE, &news);
+        ck_assert(status == INSOLE_OK || status == INSOLE_ERR_STATE);
+    }
+    ck_assert_int_eq(news.votes.winner, 1);
+    ck_assert_int_eq(news.told, 1);
+}
+END_TEST
+
 START_TEST(bad_samples_are_refused)
 {
     insole_vec3_t good = insole_vec3(0, 0, 9), bad = insole_vec3(0, (insole_real_t)NAN, 9);
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&STRONG_GAIT, STRONG);
-    ck_assert_int_eq(insole_carry_push(NULL, now_us, good, NULL), INSOLE_ERR_NULL);
-    ASSERT_REFUSED(carry, carry.window.refused, insole_carry_push(&carry, now_us, bad, NULL),
+    ck_assert_int_eq(insole_carry_push(NULL, now_us, good, NULL, NULL), INSOLE_ERR_NULL);
+    ASSERT_REFUSED(carry, carry.window.refused, insole_carry_push(&carry, now_us, bad, NULL, NULL),
                    INSOLE_ERR_VALUE);
-    ASSERT_REFUSED(carry, carry.window.refused, insole_carry_push(&carry, now_us, good, &bad),
+    ASSERT_REFUSED(carry, carry.window.refused, insole_carry_push(&carry, now_us, good, NULL, &bad),
                    INSOLE_ERR_VALUE);
     ASSERT_REFUSED(carry, carry.window.refused,
-                   insole_carry_push(&carry, now_us - POINT_US, good, NULL), INSOLE_ERR_TIME);
+                   insole_carry_push(&carry, now_us - POINT_US, good, NULL, NULL), INSOLE_ERR_TIME);
 }
 END_TEST
 
@@ -221,7 +263,7 @@ END_TEST
 
 START_TEST(a_copy_goes_on_alike)
 {
-    begin(&insole_carry_defaults);
+    begin_three();
     settle(&WEAK_GAIT, WEAK);
     walk_one_second(&STRONG_GAIT);
     insole_carry_t saved = carry;
@@ -253,6 +295,7 @@ Suite *insole_suite(void)
     suite_add(suite, "never seen", a_pose_never_seen_is_taken_for_another);
     suite_add(suite, "gap", a_gap_keeps_the_position);
     suite_add(suite, "damage", a_damaged_table_is_refused);
+    suite_add(suite, "gyroscope", a_table_about_turns_needs_a_gyroscope);
     suite_add(suite, "samples", bad_samples_are_refused);
     suite_add(suite, "settings", settings_have_ends);
     suite_add(suite, "copy", a_copy_goes_on_alike);

@@ -73,6 +73,7 @@ static void grow_forest(int trees, int classes)
 
 static void draw_features(void)
 {
+    features.has_gyro = true;
     for (int k = 0; k < INSOLE_CARRY_FEATURES; k++) {
         features.value[k] = sample_between(&rng, INSOLE_R(-1.2), INSOLE_R(1.2));
     }
@@ -146,6 +147,26 @@ START_TEST(of_equals_the_first_wins)
     ck_assert_int_eq(insole_carry_forest_vote(&forest, &features, &votes), INSOLE_OK);
     ck_assert_int_eq(votes.winner, 1);
     ASSERT_NEAR(votes.share[2], 0.5, 0.0, "");
+}
+END_TEST
+
+/* What the accelerometer tells suffices where the forest asks no more. */
+START_TEST(without_a_gyroscope_some_tables_are_no_use)
+{
+    grow_forest(1, 2);
+    nodes[0] = (insole_carry_node_t){0, INSOLE_CARRY_ACCEL - 1, 1, INSOLE_CARRY_LEAF(0)};
+    nodes[1] =
+        (insole_carry_node_t){0, INSOLE_CARRY_ACCEL, INSOLE_CARRY_LEAF(0), INSOLE_CARRY_LEAF(1)};
+    roots[1] = 2u;
+    draw_features();
+    features.value[INSOLE_CARRY_ACCEL - 1] = (insole_real_t)(_i == 0 ? 1 : -1);
+    features.has_gyro = false;
+    votes.winner = 5;
+    ck_assert_int_eq(insole_carry_forest_vote(&forest, &features, &votes),
+                     _i == 0 ? INSOLE_OK : INSOLE_ERR_STATE);
+    ck_assert_int_eq(votes.winner, _i == 0 ? 0 : 5);
+    features.has_gyro = true;
+    ck_assert_int_eq(insole_carry_forest_vote(&forest, &features, &votes), INSOLE_OK);
 }
 END_TEST
 
@@ -262,6 +283,7 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "regions", votes_are_those_of_the_regions, 4);
     suite_add(suite, "by hand", one_node_by_hand);
     suite_add(suite, "equals", of_equals_the_first_wins);
+    suite_add_loop(suite, "no gyroscope", without_a_gyroscope_some_tables_are_no_use, 2);
     suite_add_loop(suite, "damage", damage_is_found, 13);
     suite_add(suite, "random damage", no_damage_leads_astray);
     suite_add(suite, "arguments", bad_arguments_are_refused);

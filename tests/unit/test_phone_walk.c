@@ -442,7 +442,7 @@ END_TEST
 
 START_TEST(the_position_tells_whether_the_gait_is_asked)
 {
-    set_up_stroll(0);
+    set_up_stroll(2);
     begin_stroll(true);
     stroll.bounce_m = GENTLE_BOUNCE_M;
     ck_assert_int_eq(insole_phone_walk_position(&walk), INSOLE_CARRY_NONE);
@@ -467,23 +467,64 @@ START_TEST(the_position_tells_whether_the_gait_is_asked)
 }
 END_TEST
 
-START_TEST(until_a_position_is_told_the_setting_holds)
+START_TEST(until_a_position_is_told_the_phone_points_ahead)
 {
-    set_up_stroll(1);
+    set_up_stroll(2);
     begin_stroll(true);
-    stroll.bounce_m = GENTLE_BOUNCE_M;
-    stroll_until(GENTLE);
+    stroll.bounce_m = HARD_BOUNCE_M;
+    stroll_until(HARD);
     uint32_t told = step_count;
     stroll_on(6.0);
-    expect_off(0u, told, 0.0, 0.2);
-    expect_off(told, step_count, ASIDE_RAD, 1e-3);
+    ck_assert_uint_ge(told, 5u);
+    expect_off(0u, told, ASIDE_RAD, 1e-3);
+    expect_off(told, step_count, 0.0, 0.2);
+}
+END_TEST
+
+/* Whoever says how it lies is not asked where it is carried. */
+START_TEST(what_is_told_counts_more_than_the_position)
+{
+    set_up_stroll(_i / 2);
+    begin_stroll(true);
+    stroll.bounce_m = _i % 2 == HARD ? HARD_BOUNCE_M : GENTLE_BOUNCE_M;
+    stroll_until(_i % 2);
+    stroll_on(5.0);
+    expect_off(0u, step_count, config.faces == 0 ? ASIDE_RAD : 0.0, _i < 2 ? 1e-3 : 0.2);
+}
+END_TEST
+
+/* Position 1 of the table has settings of its own, if positions are asked. */
+START_TEST(steps_follow_the_position)
+{
+    bool is_asked = _i == 2;
+    set_up_stroll(_i);
+    config.step_length = insole_step_length_defaults;
+    config.length_ear = INSOLE_R(1.5);
+    config.rise_ear = INSOLE_R(0.5);
+    begin_stroll(true);
+    stroll.bounce_m = HARD_BOUNCE_M;
+    stroll_until(HARD);
+    ASSERT_NEAR(walk.steps.config.rise_share, (is_asked ? 0.5 : 1.0) * 0.33, 1e-6, "");
+    uint32_t told = step_count;
+    stroll_on(5.0);
+    ck_assert_uint_ge(step_count, told + 5u);
+    for (uint32_t i = 0u; i < step_count; i++) {
+        insole_real_t plain;
+        ck_assert_int_eq(insole_step_length(&config.step_length, &footfalls[i], &plain), INSOLE_OK);
+        double times = is_asked && i >= told ? 1.5 : 1.0;
+        ASSERT_NEAR(paces[i].length_m, times * (double)plain, 1e-5, "m");
+        ASSERT_NEAR(paces[i].var_length_m2, pow(0.15 * times * (double)plain, 2.0), 1e-5, "m^2");
+    }
+    stroll.bounce_m = GENTLE_BOUNCE_M;
+    stroll_until(GENTLE);
+    ASSERT_NEAR(walk.steps.config.rise_share, 0.33, 1e-6, "");
 }
 END_TEST
 
 /* GENTLE and HARD in turn: with none that points ahead, and with the other one. */
 START_TEST(which_position_points_ahead_is_a_setting)
 {
-    set_up_stroll(0);
+    set_up_stroll(2);
     config.ahead_position = _i < 2 ? -1 : HARD;
     begin_stroll(true);
     int32_t position = _i % 2;
@@ -498,7 +539,7 @@ END_TEST
 /* Windows are full after 2 s, 3 s, and so on. */
 START_TEST(work_is_done_once_for_each_window)
 {
-    set_up_stroll(0);
+    set_up_stroll(2);
     begin_stroll(true);
     for (int i = 0; i < 1000; i++) {
         if (stroll_once()) {
@@ -533,7 +574,7 @@ START_TEST(a_damaged_forest_is_refused)
     static const insole_carry_node_t LOOP[] = {{0, 0, 0, 0}};
     static const insole_carry_forest_t DAMAGED = {LOOP, ROOTS, NAMES, 1, 2};
     const insole_phone_gait_t gait = {&heading, &carry, &DAMAGED};
-    set_up_stroll(0);
+    set_up_stroll(2);
     begin_stroll(true);
     stroll_on(3.0);
     ASSERT_UNCHANGED(walk, insole_phone_walk_init(&walk, &config, &gait), INSOLE_ERR_DATA);
@@ -566,7 +607,9 @@ Suite *insole_suite(void)
     suite_add(suite, "first step", the_first_step_has_a_direction_however_the_phone_points);
     suite_add(suite, "turned round", a_phone_turned_round_is_learned_anew);
     suite_add(suite, "position", the_position_tells_whether_the_gait_is_asked);
-    suite_add(suite, "no position yet", until_a_position_is_told_the_setting_holds);
+    suite_add(suite, "no position yet", until_a_position_is_told_the_phone_points_ahead);
+    suite_add_loop(suite, "told", what_is_told_counts_more_than_the_position, 4);
+    suite_add_loop(suite, "steps follow", steps_follow_the_position, 3);
     suite_add_loop(suite, "ahead position", which_position_points_ahead_is_a_setting, 4);
     suite_add(suite, "work", work_is_done_once_for_each_window);
     suite_add(suite, "no gait", without_a_gait_the_position_changes_nothing);

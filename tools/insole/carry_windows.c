@@ -22,7 +22,8 @@ static const double gravity_s = 0.5;
 
 typedef struct {
     int64_t t_us; /* since the first */
-    double accel[3], gravity[3];
+    double accel[3], gravity[3], gyro[3];
+    bool has_gyro;
 } sample_t;
 
 typedef struct {
@@ -54,7 +55,10 @@ static void find_gravity(samples_t *samples, sample_t *sample)
 
 static bool is_good_record(const samples_t *samples, const record_t *record)
 {
-    double size = fabs(record->value[0]) + fabs(record->value[1]) + fabs(record->value[2]);
+    double size = 0.0;
+    for (int k = 0; k < (record->kind == RECORD_IMU ? 6 : 3); k++) {
+        size += fabs(record->value[k]);
+    }
     return isfinite(size) && (samples->count == 0u || record->t_us - samples->first_us >
                                                           samples->at[samples->count - 1u].t_us);
 }
@@ -67,6 +71,8 @@ static void add_sample(samples_t *samples, const record_t *record)
     sample_t *sample = &samples->at[samples->count++];
     sample->t_us = record->t_us - samples->first_us;
     memcpy(sample->accel, record->value, sizeof sample->accel);
+    sample->has_gyro = record->kind == RECORD_IMU;
+    memcpy(sample->gyro, record->value + 3, sizeof sample->gyro);
     find_gravity(samples, sample);
 }
 
@@ -120,15 +126,28 @@ static void add_row(carry_windows_t *windows, const insole_carry_features_t *fea
     row->log = (uint32_t)windows->log_count;
     row->block = block;
     row->variant = variant;
+    windows->without_gyro += !features->has_gyro;
 }
 
-static insole_vec3_t felt(const sample_t *sample, double strength)
+static insole_vec3_t vec3_of(const double v[3])
 {
-    double a[3];
-    for (int k = 0; k < 3; k++) {
-        a[k] = sample->gravity[k] + strength * (sample->accel[k] - sample->gravity[k]);
+    return insole_vec3(to_real(v[0]), to_real(v[1]), to_real(v[2]));
+}
+
+/* What another walker's phone feels at that time. */
+static insole_carry_point_t felt(const sample_t *sample, uint8_t variant)
+{
+    insole_carry_point_t point = {vec3_of(sample->accel), vec3_of(sample->gyro), sample->has_gyro};
+    if (variant > 0u) {
+        double a[3], w[3], strength = variants[variant].strength;
+        for (int k = 0; k < 3; k++) {
+            a[k] = sample->gravity[k] + strength * (sample->accel[k] - sample->gravity[k]);
+            w[k] = sample->gyro[k] * strength / variants[variant].pace;
+        }
+        point.accel = vec3_of(a);
+        point.gyro = vec3_of(w);
     }
-    return insole_vec3(to_real(a[0]), to_real(a[1]), to_real(a[2]));
+    return point;
 }
 
 static void feel(carry_windows_t *windows, const samples_t *samples, uint8_t variant)
@@ -139,11 +158,9 @@ static void feel(carry_windows_t *windows, const samples_t *samples, uint8_t var
     for (size_t i = 0u; i < samples->count; i++) {
         const sample_t *sample = &samples->at[i];
         int64_t t_us = (int64_t)((double)sample->t_us * variants[variant].pace + 0.5);
-        insole_vec3_t accel =
-            variant == 0u ? insole_vec3(to_real(sample->accel[0]), to_real(sample->accel[1]),
-                                        to_real(sample->accel[2]))
-                          : felt(sample, variants[variant].strength);
-        (void)insole_carry_window_push(&window, (uint64_t)t_us, accel, NULL);
+        insole_carry_point_t point = felt(sample, variant);
+        (void)insole_carry_window_push(&window, (uint64_t)t_us, point.accel,
+                                       point.has_gyro ? &point.gyro : NULL, NULL);
         if (insole_carry_window_next(&window, &features) != INSOLE_OK) {
             continue;
         }

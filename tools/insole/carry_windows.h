@@ -37,6 +37,7 @@ typedef struct {
     carry_row_t *rows;
     uint32_t *log_of_block;
     size_t log_count, row_count, block_count, log_room, row_room, block_room;
+    size_t without_gyro;                    /**< rows */
     unsigned long still, refused, left_out; /**< windows at rest, samples, logs in no class */
 } carry_windows_t;
 

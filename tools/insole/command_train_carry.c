@@ -12,6 +12,9 @@
 #include "pack_writer.h"
 #include "platform.h"
 
+/* Windows half over each other. */
+#define CARRY_NEXT_US 1100000u
+
 /* All that a run knows. */
 typedef struct {
     const arguments_t *arguments;
@@ -25,14 +28,46 @@ typedef struct {
 
 /* ---- settings --------------------------------------------------------------------------- */
 
+static const struct {
+    const char *name;
+    int64_t count;
+} feature_sets[] = {
+    {"all", INSOLE_CARRY_FEATURES}, {"accel", INSOLE_CARRY_ACCEL}, {"paper", INSOLE_CARRY_PAPER}};
+
+enum { FEATURE_SETS = sizeof feature_sets / sizeof feature_sets[0], NOT_ASKED = 0 };
+
 static bool read_features(const arguments_t *arguments, int64_t *features, failure_t *failure)
 {
-    const char *text =
-        options_has(arguments, "features") ? options_value(arguments, "features") : "all";
-    *features = strcmp(text, "all") == 0 ? INSOLE_CARRY_FEATURES : INSOLE_CARRY_PAPER;
-    return strcmp(text, "all") == 0 || strcmp(text, "paper") == 0 ||
-           failure_usage(failure, "insole train-carry: --features %.40s: expected paper or all",
-                         text);
+    const char *text = options_value(arguments, "features");
+    *features = NOT_ASKED;
+    for (int i = 0; i < FEATURE_SETS && text != NULL; i++) {
+        *features = strcmp(text, feature_sets[i].name) == 0 ? feature_sets[i].count : *features;
+    }
+    return text == NULL || *features != NOT_ASKED ||
+           failure_usage(
+               failure, "insole train-carry: --features %.40s: expected paper, accel or all", text);
+}
+
+static const char *name_of_features(int64_t count)
+{
+    int i = 0;
+    while (feature_sets[i].count != count) {
+        i++;
+    }
+    return feature_sets[i].name;
+}
+
+/* Where nobody asks, all that every log has. */
+static bool settle_features(const carry_windows_t *windows, int64_t *features, failure_t *failure)
+{
+    if (*features == NOT_ASKED) {
+        *features = windows->without_gyro == 0u ? INSOLE_CARRY_FEATURES : INSOLE_CARRY_ACCEL;
+    }
+    return *features <= INSOLE_CARRY_ACCEL || windows->without_gyro == 0u ||
+           failure_input(failure,
+                         "insole train-carry: --features all: %lu windows are without gyroscope: "
+                         "expected logs that have one, or --features accel",
+                         (unsigned long)windows->without_gyro);
 }
 
 static bool read_settings(const arguments_t *arguments, forest_settings_t *settings,
@@ -99,17 +134,35 @@ static bool leave_all_out(training_t *training, const char *persons, failure_t *
     return is_good;
 }
 
-/* What the forest says of the logs that it did not see. */
-static void judge(const training_t *training, const grown_t *grown, confusion_t *confusion)
+/* What the forest says of the logs that it did not see, by each window and by two in a row. */
+typedef struct {
+    confusion_t single, twin;
+} judgement_t;
+
+static void judge(const training_t *training, const grown_t *grown, judgement_t *judgement)
 {
     const carry_windows_t *windows = &training->windows;
-    insole_carry_votes_t votes;
+    insole_carry_votes_t votes, before;
+    const carry_row_t *last = NULL;
+    memset(judgement, 0, sizeof *judgement);
     for (size_t i = 0u; i < windows->row_count; i++) {
         const carry_row_t *row = &windows->rows[i];
-        if (row->variant == 0u && !training->is_used[row->log] &&
-            insole_carry_forest_vote(&grown->forest, &row->features, &votes) == INSOLE_OK) {
-            confusion->count[windows->logs[row->log].class_number][votes.winner]++;
+        if (row->variant != 0u || training->is_used[row->log] ||
+            insole_carry_forest_vote(&grown->forest, &row->features, &votes) != INSOLE_OK) {
+            continue;
         }
+        int class_number = windows->logs[row->log].class_number, both = 0;
+        judgement->single.count[class_number][votes.winner]++;
+        if (last != NULL && last->log == row->log &&
+            row->features.t_us - last->features.t_us <= CARRY_NEXT_US) {
+            for (int k = 0; k < INSOLE_CARRY_CLASSES; k++) {
+                insole_real_t sum = votes.share[k] + before.share[k];
+                both = sum > votes.share[both] + before.share[both] ? k : both;
+            }
+            judgement->twin.count[class_number][both]++;
+        }
+        last = row;
+        before = votes;
     }
 }
 
@@ -128,6 +181,14 @@ static void print(const training_t *training, const char *title, const confusion
                     training->windows.classes.names.count);
 }
 
+static void print_judgement(const training_t *training, const char *title,
+                            const judgement_t *judgement)
+{
+    print(training, title, &judgement->single);
+    fprintf(training->report, "  by two windows in a row: %.1f %% of %lu\n",
+            100.0 * confusion_accuracy(&judgement->twin), confusion_total(&judgement->twin));
+}
+
 /* A forest without each person in turn, judged by that person. */
 static bool judge_each(training_t *training, failure_t *failure)
 {
@@ -135,17 +196,16 @@ static bool judge_each(training_t *training, failure_t *failure)
     for (uint32_t p = 0u; p < training->windows.persons.count && is_good; p++) {
         char title[128];
         grown_t grown;
-        confusion_t confusion;
+        judgement_t judgement;
         const char *person = training->windows.persons.names[p];
-        memset(&confusion, 0, sizeof confusion);
         use_index(training);
         is_good = leave_out(training, person, failure) &&
                   forest_grow(&grown, &training->windows, training->is_used, &training->settings,
                               NULL, failure);
         if (is_good) {
-            judge(training, &grown, &confusion);
+            judge(training, &grown, &judgement);
             snprintf(title, sizeof title, "Held out: %s", person);
-            print(training, title, &confusion);
+            print_judgement(training, title, &judgement);
             forest_free(&grown);
         } else {
             failure_add(failure, " (without %s)", person);
@@ -170,7 +230,7 @@ static void describe(const training_t *training, char *text, size_t room)
              " * --trees %d --depth %d --min-leaf %d --bag %d --features %s%s --seed %llu\n"
              " * Classes: %s.",
              (unsigned long)used, (int)s->trees, (int)s->depth, (int)s->min_leaf, (int)s->bag,
-             s->features == INSOLE_CARRY_PAPER ? "paper" : "all",
+             name_of_features(s->features),
              options_has(training->arguments, "plain") ? " --plain" : "",
              (unsigned long long)s->seed, classes != NULL ? classes : "the positions");
 }
@@ -198,16 +258,16 @@ static bool write_table(const training_t *training, const grown_t *grown, failur
 static bool grow(training_t *training, failure_t *failure)
 {
     grown_t grown;
-    confusion_t out_of_bag, held_out;
-    memset(&held_out, 0, sizeof held_out);
+    confusion_t out_of_bag;
+    judgement_t held_out;
     if (!forest_grow(&grown, &training->windows, training->is_used, &training->settings,
                      &out_of_bag, failure)) {
         return false;
     }
     judge(training, &grown, &held_out);
     print(training, "Out of bag: other minutes of the same people, which flatters", &out_of_bag);
-    if (confusion_total(&held_out) > 0u) {
-        print(training, "Held out", &held_out);
+    if (confusion_total(&held_out.single) > 0u) {
+        print_judgement(training, "Held out", &held_out);
     }
     fprintf(training->report, "%u trees, %lu nodes, %lu bytes\n", (unsigned)grown.forest.tree_count,
             (unsigned long)grown.node_count, (unsigned long)forest_bytes(&grown));
@@ -234,7 +294,7 @@ static bool load(training_t *training, failure_t *failure)
     }
     training->is_used = memory_new(training->windows.log_count + 1u, sizeof *training->is_used);
     use_index(training);
-    return true;
+    return settle_features(&training->windows, &training->settings.features, failure);
 }
 
 static void print_counts(const training_t *training)
@@ -242,9 +302,9 @@ static void print_counts(const training_t *training)
     const carry_windows_t *w = &training->windows;
     fprintf(training->report,
             "%lu logs of %lu people; left out: %lu windows at rest, %lu bad samples, %lu logs in "
-            "no class\n",
+            "no class; features: %s\n",
             (unsigned long)w->log_count, (unsigned long)w->persons.count, w->still, w->refused,
-            w->left_out);
+            w->left_out, name_of_features(training->settings.features));
 }
 
 static bool train(training_t *training, failure_t *failure)
@@ -289,7 +349,7 @@ static const option_t options[] = {
     {"depth", "N", "questions in a row, up to 7 (default)"},
     {"min-leaf", "N", "fewest windows on a side of a question; default 10"},
     {"bag", "N", "windows of each class that a tree sees; default 300"},
-    {"features", "SET", "all (default), or the 15 of the paper"},
+    {"features", "SET", "all, accel or paper (15); default: all that the logs give"},
     {"plain", NULL, "logs as they are, not as other people's as well"},
     {"accel-unit", "UNIT", "mps2 (default), g or mg"},
     {"seed", "N", "default 1"},
@@ -300,7 +360,9 @@ const command_t command_train_carry = {
     "INDEX [--out FILE.c]",
     "the forest that tells where a phone is carried, from labelled logs",
     "INDEX is a CSV with a header that names the columns file, person, position (others are\n"
-    "passed over); files count from its folder. The logs need an accelerometer alone.\n"
+    "passed over); files count from its folder. The logs need an accelerometer alone; where all "
+    "have\n"
+    "a gyroscope as well, the table asks about it, and is no use without one.\n"
     "\n"
     "  insole train-carry people.csv --leave-out each --out carry.c \\\n"
     "      --classes hand=hand+inhand,pocket=frontpocket+backpocket,bag=bag+purse\n"

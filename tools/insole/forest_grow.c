@@ -2,6 +2,7 @@
 #include "forest_grow.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +13,8 @@
 
 const forest_settings_t forest_defaults = {40,  FOREST_MOST_DEPTH,     10,
                                            300, INSOLE_CARRY_FEATURES, 1u};
+
+enum { NUMBER_ROOM = 40, MOST_DIGITS = 17 };
 
 /* A window at a node, by one feature. */
 typedef struct {
@@ -66,11 +69,20 @@ static void count_classes(const item_t *items, size_t count, double *classes)
     }
 }
 
-/* Between two values that differ; the lower one stays on its side whatever is rounded. */
-static insole_real_t middle(insole_real_t low, insole_real_t high)
+/* The shortest number near the middle of two values that differ: at least the lower one and below
+ * the other. */
+static insole_real_t between(insole_real_t low, insole_real_t high)
 {
-    insole_real_t between = low + INSOLE_R(0.5) * (high - low);
-    return between < high ? between : low;
+    char text[NUMBER_ROOM];
+    insole_real_t middle = low + INSOLE_R(0.5) * (high - low);
+    for (int digits = 2; digits <= MOST_DIGITS; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, (double)middle);
+        insole_real_t value = (insole_real_t)strtod(text, NULL);
+        if (value >= low && value < high) {
+            return value;
+        }
+    }
+    return low;
 }
 
 /* Tries all cuts of one feature. */
@@ -97,7 +109,7 @@ static void try_feature(const grower_t *grower, const uint32_t *rows, size_t cou
         if (purity > best->purity) {
             best->purity = purity;
             best->feature = feature;
-            best->threshold = middle(items[below - 1u].value, items[below].value);
+            best->threshold = between(items[below - 1u].value, items[below].value);
         }
     }
 }

@@ -1,19 +1,35 @@
 /* SPDX-License-Identifier: MIT */
 #include "forest_writer.h"
 
+#include <stdbool.h>
+#include <string.h>
+
 #include "c_text.h"
+
+enum { COLUMNS = 100 };
+
+/* Writes an item of a list, on a line of its own where the last has no room. */
+static void write_item(FILE *file, int *column, const char *item)
+{
+    int length = (int)strlen(item);
+    bool has_room = *column > 0 && *column + 1 + length <= COLUMNS;
+    fprintf(file, has_room ? " %s" : *column > 0 ? "\n    %s" : "    %s", item);
+    *column = has_room ? *column + 1 + length : 4 + length;
+}
 
 static void write_nodes(FILE *file, const grown_t *grown, const char *name)
 {
-    char number[C_REAL_ROOM];
+    char number[C_REAL_ROOM], item[C_REAL_ROOM + 40];
+    int column = 0;
     fprintf(file, "static const insole_carry_node_t %s_nodes[%lu] = {\n", name,
             (unsigned long)grown->node_count);
     for (size_t i = 0u; i < grown->node_count; i++) {
         const insole_carry_node_t *node = &grown->nodes[i];
-        fprintf(file, "    {%s, %u, %u, %u},\n", c_real(number, node->threshold),
-                (unsigned)node->feature, (unsigned)node->at_most, (unsigned)node->above);
+        snprintf(item, sizeof item, "{%s, %u, %u, %u},", c_real(number, node->threshold),
+                 (unsigned)node->feature, (unsigned)node->at_most, (unsigned)node->above);
+        write_item(file, &column, item);
     }
-    fputs("};\n\n", file);
+    fputs("\n};\n\n", file);
 }
 
 static void write_roots(FILE *file, const grown_t *grown, const char *name)

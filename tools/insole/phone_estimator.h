@@ -12,6 +12,8 @@
 
 #include "insole/track/phone_tracker.h"
 
+#include "insole/sense/carry_table.h"
+
 #include "estimator_setup.h"
 #include "event.h"
 #include "phone_parts.h"
@@ -28,11 +30,12 @@ typedef struct {
     radio_group_t radio; /**< of the moment that is being read */
     radio_counts_t counts;
     bool has_imu;
-    int64_t imu_us;   /**< newest */
-    uint32_t reached; /**< fixes by radio that have been looked at */
-    uint32_t starts;  /**< of the filter, the same */
-    uint32_t steps;   /**< the same */
-    insole_fix_t fix; /**< newest, until taken */
+    int64_t imu_us;                           /**< newest */
+    uint32_t reached;                         /**< fixes by radio that have been looked at */
+    uint32_t starts;                          /**< of the filter, the same */
+    uint32_t steps;                           /**< the same */
+    uint32_t carried[INSOLE_CARRY_POSITIONS]; /**< steps of them by carrying position */
+    insole_fix_t fix;                         /**< newest, until taken */
     bool has_fix;
     event_t events[PHONE_EVENTS];
     int event_count, event_taken;

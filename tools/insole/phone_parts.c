@@ -8,6 +8,7 @@
 #include "insole/fuse/step_ukf.h"
 #include "insole/move/attitude_ekf.h"
 #include "insole/move/attitude_ukf.h"
+#include "insole/sense/carry_table.h"
 
 #include "memory.h"
 
@@ -140,7 +141,10 @@ static bool set_up_states(phone_parts_t *parts, const phone_settings_t *settings
         fusion.process = fusion.measurement = INSOLE_STEP_CONSTANT;
     }
     parts->library.gait.heading = &parts->walk_heading;
+    parts->library.gait.carry = &parts->carry;
+    parts->library.gait.forest = &insole_carry_table_forest;
     return insole_walk_heading_init(&parts->walk_heading, &settings->walk_heading) == INSOLE_OK &&
+           insole_carry_init(&parts->carry, &settings->carry) == INSOLE_OK &&
            insole_kde_fix_init(&parts->kde_fix, &settings->kde_fix) == INSOLE_OK &&
            insole_ml_fix_init(&parts->ml_fix, &settings->ml_fix) == INSOLE_OK &&
            insole_step_fusion_init(&parts->step_fusion, &fusion) == INSOLE_OK &&

@@ -4,6 +4,7 @@
  *      insole_phone_tracker_init(&tracker, &parts.config, &parts.library, parts.map);
  *      phone_parts_free(&parts);
  *
+ *  The library's own forest tells where the phone is carried, which the settings may make use of.
  *  `best` is a cloud of particles where a plan is known, and else the filter of six states. `zee`
  *  begins with the first fix, whatever direction it gives; without a radio map, all over the plan.
  *
@@ -32,6 +33,7 @@ typedef struct {
     insole_phone_parts_t library;
     const insole_radio_map_t *map; /**< NULL: the method has no use for it, or there is none */
     insole_walk_heading_t walk_heading;
+    insole_carry_t carry;
     insole_step_fusion_t step_fusion;
     insole_ml_shift_t ml_shift;
     insole_walker_ekf_t walker_ekf;

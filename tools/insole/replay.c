@@ -296,6 +296,9 @@ static void gather_phone(run_t *run)
     const phone_estimator_t *phone = &run->estimator.phone;
     const insole_radio_map_t *map = phone->parts.map;
     replay_phone_t *facts = &run->facts->phone;
+    for (int k = 0; k < INSOLE_CARRY_POSITIONS; k++) {
+        facts->carried[k] = phone->carried[k];
+    }
     run->facts->screen = phone->tracker.screen.counts;
     run->facts->gravity_mps2 = (double)phone->tracker.still_bias.gravity_mps2;
     run->facts->rests = phone->tracker.still_bias.rests;

@@ -63,12 +63,13 @@ typedef struct {
 
 /** What the phone tracker tells of itself. */
 typedef struct {
-    unsigned long points, aps; /**< of the radio map */
-    unsigned long unplaced;    /**< scans that gave no position */
-    unsigned long magnetic;    /**< readings of the magnetometer taken */
-    unsigned long starts;      /**< times the filter was started */
-    unsigned long particles;   /**< that carry the track; 0: none do */
-    unsigned long gaps;        /**< long ones in the readings */
+    unsigned long points, aps;                     /**< of the radio map */
+    unsigned long unplaced;                        /**< scans that gave no position */
+    unsigned long magnetic;                        /**< readings of the magnetometer taken */
+    unsigned long starts;                          /**< times the filter was started */
+    unsigned long particles;                       /**< that carry the track; 0: none do */
+    unsigned long gaps;                            /**< long ones in the readings */
+    unsigned long carried[INSOLE_CARRY_POSITIONS]; /**< steps by recognised position */
 } replay_phone_t;
 
 /** What is known after a replay. */

@@ -31,6 +31,26 @@ static void print_building(FILE *file, const summary_t *summary)
     }
 }
 
+/* Of the steps whose position is known. */
+static void print_carried(FILE *file, const replay_facts_t *facts)
+{
+    unsigned long known = 0u;
+    const char *between = "  carried        ";
+    for (int k = 0; k < INSOLE_CARRY_POSITIONS; k++) {
+        known += facts->phone.carried[k];
+    }
+    for (int k = 0; k < INSOLE_CARRY_POSITIONS; k++) {
+        if (facts->phone.carried[k] > 0u) {
+            fprintf(file, "%s%s %.0f %%", between, insole_carry_table_forest.names[k],
+                    100.0 * (double)facts->phone.carried[k] / (double)known);
+            between = ", ";
+        }
+    }
+    if (known > 0u) {
+        fprintf(file, " of %lu steps\n", known);
+    }
+}
+
 void summary_phone_print(FILE *file, const summary_t *summary)
 {
     const replay_facts_t *facts = summary->facts;
@@ -44,6 +64,7 @@ void summary_phone_print(FILE *file, const summary_t *summary)
         fputs("  fingerprints   none (--radiomap)\n", file);
     }
     fprintf(file, "  compass        %lu readings\n", facts->phone.magnetic);
+    print_carried(file, facts);
     summary_states_print(file, facts);
 }
 
@@ -70,5 +91,10 @@ void summary_phone_json(json_t *json, const summary_t *summary)
     json_whole(json, "magnetic", (long long)facts->phone.magnetic);
     json_whole(json, "starts", (long long)facts->phone.starts);
     json_whole(json, "gaps", (long long)facts->phone.gaps);
+    json_object(json, "carried");
+    for (int k = 0; k < INSOLE_CARRY_POSITIONS; k++) {
+        json_whole(json, insole_carry_table_forest.names[k], (long long)facts->phone.carried[k]);
+    }
+    json_end(json);
     json_end(json);
 }

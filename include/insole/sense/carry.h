@@ -7,7 +7,7 @@
  *      static insole_carry_t carry;
  *      insole_carry_init(&carry, &insole_carry_defaults);
  *      on each sample, 20 to 400 Hz:
- *          insole_carry_push(&carry, t_us, accel_mps2, NULL);
+ *          insole_carry_push(&carry, t_us, accel_mps2, &gyro_radps, NULL);
  *          if (insole_carry_next(&carry, &forest, &news) == INSOLE_OK && news.told >= 0)
  *              use(forest.names[news.told]);                 once a second, as the walk goes on
  *
@@ -34,7 +34,7 @@ extern "C" {
         "low-pass that finds gravity; forests are grown on the default")                          \
     KEY(REAL, still_mps2, 0.5, 0.0, 10.0, "m/s^2",                                                \
         "a window where |a| scatters less is at rest and tells nothing; 0 = off")                 \
-    KEY(INT, switch_windows, 3, 1, 60, "",                                                        \
+    KEY(INT, switch_windows, 5, 1, 60, "",                                                        \
         "a new position is told when it has won so many windows in a row; 1 = at once")           \
     KEY(REAL, min_share, 0.5, 0.0, 1.0, "",                                                       \
         "a window is won with at least this share of the trees; 0 = any")
@@ -69,11 +69,12 @@ insole_status_t insole_carry_init(insole_carry_t *carry, const insole_carry_conf
 
 /** Takes a sample: insole_carry_window_push. Refusals are counted in `carry->window.refused`. */
 insole_status_t insole_carry_push(insole_carry_t *carry, uint64_t t_us, insole_vec3_t accel_mps2,
-                                  const insole_vec3_t *up);
+                                  const insole_vec3_t *gyro_radps, const insole_vec3_t *up);
 
 /** What the newest window says, once.
- *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE when there is none; INSOLE_ERR_DATA for a damaged
- *          table: the window then still waits */
+ *  @return INSOLE_ERR_NULL; INSOLE_ERR_STATE when there is none, or one without the gyroscope that
+ *          the table asks about: it is gone then; INSOLE_ERR_DATA for a damaged table: the window
+ *          then still waits */
 insole_status_t insole_carry_next(insole_carry_t *carry, const insole_carry_forest_t *forest,
                                   insole_carry_news_t *news);
 

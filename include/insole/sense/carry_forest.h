@@ -61,7 +61,8 @@ typedef struct {
 insole_status_t insole_carry_forest_check(const insole_carry_forest_t *forest);
 
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE: a feature is not finite; INSOLE_ERR_DATA: the table
- *          is damaged where the features lead */
+ *          is damaged where the features lead; INSOLE_ERR_STATE: it asks there about the turn rate,
+ *          and there was no gyroscope */
 insole_status_t insole_carry_forest_vote(const insole_carry_forest_t *forest,
                                          const insole_carry_features_t *features,
                                          insole_carry_votes_t *votes);
