@@ -33,7 +33,7 @@ static void open_slots(insole_gait_motion_t *motion, uint64_t newest)
 {
     uint64_t last = motion->t_us / SLOT_US, over = newest - last;
     uint32_t count = motion->has_time && over < (uint64_t)SLOTS ? (uint32_t)over : SLOTS;
-    insole_gait_slot_t empty = {insole_vec3_zero(), motion->slots[place_of(last)].device_rad};
+    insole_gait_slot_t empty = {insole_vec3_zero(), motion->slots[place_of(last)].facing};
     for (uint32_t i = 0u; i < count; i++) {
         motion->slots[place_of(newest - i)] = empty;
         motion->counts[place_of(newest - i)] = 0u;
@@ -41,13 +41,14 @@ static void open_slots(insole_gait_motion_t *motion, uint64_t newest)
 }
 
 insole_status_t insole_gait_motion_push(insole_gait_motion_t *motion, insole_vec3_t force_mps2,
-                                        insole_real_t device_rad, uint64_t t_us)
+                                        const insole_gait_facing_t *facing, uint64_t t_us)
 {
-    if (!motion) {
+    if (!motion || !facing) {
         return INSOLE_ERR_NULL;
     }
     if (!(insole_vec3_norm(force_mps2) <= LARGEST_MPS2) ||
-        !(insole_abs(device_rad) <= LARGEST_RAD)) {
+        !(insole_abs(facing->device_rad) <= LARGEST_RAD) ||
+        !(insole_abs(facing->turned_rad) <= LARGEST_RAD)) {
         return INSOLE_ERR_VALUE;
     }
     if (motion->has_time && t_us <= motion->t_us) {
@@ -57,7 +58,7 @@ insole_status_t insole_gait_motion_push(insole_gait_motion_t *motion, insole_vec
     motion->has_time = true;
     motion->t_us = t_us;
     uint32_t at = place_of(t_us / SLOT_US);
-    motion->slots[at].device_rad = device_rad;
+    motion->slots[at].facing = *facing;
     if (motion->counts[at] < MOST_SAMPLES) {
         motion->slots[at].sum_mps2 = insole_vec3_add(motion->slots[at].sum_mps2, force_mps2);
         motion->counts[at]++;
@@ -100,75 +101,137 @@ static bool find_mean(const insole_gait_motion_t *motion, uint64_t number, insol
 typedef struct {
     uint64_t first, end;
     insole_real_t weight; /* of each in a mean */
+    insole_real_t facing_rad;
 } span_t;
 
-static span_t span_of(const insole_gait_window_t *window)
+static insole_real_t turned_at(const insole_gait_motion_t *motion, uint64_t number)
 {
-    span_t span = {window->begin_us / SLOT_US, (window->end_us - 1u) / SLOT_US + 1u, ZERO};
+    return motion->slots[place_of(number)].facing.turned_rad;
+}
+
+/* Mean over the last step. */
+static insole_real_t mean_facing(const insole_gait_motion_t *motion, const span_t *span,
+                                 uint32_t steps)
+{
+    insole_real_t last = turned_at(motion, span->end - 1u), sum = ZERO;
+    uint64_t length = (span->end - span->first) / steps;
+    length = length > 0u ? length : 1u;
+    for (uint64_t k = span->end - length; k < span->end; k++) {
+        sum += insole_wrap_pi(turned_at(motion, k) - last);
+    }
+    return insole_wrap_pi(last + sum / (insole_real_t)length);
+}
+
+static span_t span_of(const insole_gait_motion_t *motion, const insole_gait_window_t *window)
+{
+    span_t span = {window->begin_us / SLOT_US, (window->end_us - 1u) / SLOT_US + 1u, ZERO, ZERO};
     span.weight = ONE / (insole_real_t)(span.end - span.first);
+    span.facing_rad = mean_facing(motion, &span, window->steps);
     return span;
 }
 
-static bool find_mean_of_all(const insole_gait_motion_t *motion, span_t span, insole_vec3_t *mean)
+/* That mean of a slot, turned to where the walker faces at last. */
+static bool find_turned(const insole_gait_motion_t *motion, const span_t *span, uint64_t number,
+                        insole_vec3_t *mean)
+{
+    insole_vec3_t a;
+    if (!find_mean(motion, number, &a)) {
+        return false;
+    }
+    insole_turn_t turn = insole_turn(insole_wrap_pi(span->facing_rad - turned_at(motion, number)));
+    insole_spot_t level = insole_turn_way(turn, insole_spot(a.x, a.y));
+    *mean = insole_vec3(level.x_m, level.y_m, a.z);
+    return true;
+}
+
+static bool find_mean_of_all(const insole_gait_motion_t *motion, const span_t *span,
+                             insole_vec3_t *mean)
 {
     insole_vec3_t sum = insole_vec3_zero(), of_slot;
-    for (uint64_t k = span.first; k < span.end; k++) {
-        if (!find_mean(motion, k, &of_slot)) {
+    for (uint64_t k = span->first; k < span->end; k++) {
+        if (!find_turned(motion, span, k, &of_slot)) {
             return false;
         }
         sum = insole_vec3_add(sum, of_slot);
     }
-    *mean = insole_vec3_scale(sum, span.weight);
+    *mean = insole_vec3_scale(sum, span->weight);
     return true;
 }
 
-/* Vertical velocity on the way through a window, from zero, and means of products with it. */
+/* Vertical velocity on the way through a window, from zero. */
 typedef struct {
-    insole_real_t now, lowest, sum, square;
-    insole_vec3_t with_a;
+    insole_real_t now, lowest;
 } rise_t;
 
 /* Takes the acceleration of the next slot, and the velocity in its middle. */
-static void rise(rise_t *v, insole_vec3_t a, insole_real_t weight, insole_gait_moments_t *moments)
+static void rise(rise_t *v, insole_vec3_t a, insole_gait_moments_t *moments)
 {
     insole_real_t half_mps = INSOLE_R(0.5) * SLOT_S * a.z;
     insole_real_t middle = v->now + half_mps;
     v->now = middle + half_mps;
-    v->with_a = insole_vec3_add_scaled(v->with_a, weight * middle, a);
-    v->sum += weight * middle;
-    v->square += weight * middle * middle;
     if (middle < v->lowest) {
         v->lowest = middle;
         moments->falling_mps2 = a;
     }
 }
 
-/* Of the harmonic of a step, a quarter period ahead of the vertical acceleration is -w times the
- * vertical velocity; the reference is made of both. */
-static void refer(insole_gait_moments_t *moments, const insole_gait_window_t *window,
-                  const rise_t *v)
+/* Phase of the stride in the middle of a slot, and what it gains to the next. */
+typedef struct {
+    insole_turn_t now, per_slot;
+} phase_t;
+
+static phase_t phase_of(const insole_gait_window_t *window, uint64_t first)
 {
     insole_real_t step_s =
         insole_seconds(window->begin_us, window->end_us) / (insole_real_t)window->steps;
-    insole_turn_t lead = insole_turn(window->lead_rad);
-    insole_real_t by_v = -lead.sin * INSOLE_R(2.0) * INSOLE_PI / step_s;
-    insole_real_t var_v = insole_max(v->square - v->sum * v->sum, ZERO);
-    const insole_sym3_t *S = &moments->scatter;
-    insole_vec3_t with_a_z = insole_vec3_scale(insole_vec3(S->xz, S->yz, S->zz), lead.cos);
-    moments->in_phase = insole_vec3_add_scaled(with_a_z, by_v, v->with_a);
-    /* the velocity ends where it began: its product with its own rate is zero */
-    moments->reference = lead.cos * with_a_z.z + by_v * by_v * var_v;
+    insole_real_t before_s = insole_seconds(first * SLOT_US, window->begin_us);
+    phase_t phase = {insole_turn(INSOLE_PI * (INSOLE_R(0.5) * SLOT_S - before_s) / step_s),
+                     insole_turn(INSOLE_PI * SLOT_S / step_s)};
+    return phase;
+}
+
+static insole_turn_t sum_of(insole_turn_t a, insole_turn_t b)
+{
+    insole_turn_t sum = {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin};
+    return sum;
+}
+
+static void add_wave(insole_gait_wave_t *wave, insole_real_t weight, insole_turn_t phase,
+                     insole_vec3_t a)
+{
+    wave->c = insole_vec3_add_scaled(wave->c, weight * phase.cos, a);
+    wave->s = insole_vec3_add_scaled(wave->s, weight * phase.sin, a);
 }
 
 static insole_status_t check(const insole_gait_motion_t *motion, const insole_gait_window_t *window)
 {
-    if (window->steps == 0u || !(insole_abs(window->lead_rad) <= LARGEST_RAD)) {
+    if (window->steps == 0u) {
         return INSOLE_ERR_VALUE;
     }
     if (window->begin_us >= window->end_us || !motion->has_time || window->end_us > motion->t_us) {
         return INSOLE_ERR_TIME;
     }
     return INSOLE_OK;
+}
+
+/* Sums over the slots of a span whose mean is known. */
+static void sum_up(const insole_gait_motion_t *motion, const insole_gait_window_t *window,
+                   const span_t *span, insole_vec3_t mean, insole_gait_moments_t *moments)
+{
+    insole_real_t twice = INSOLE_R(2.0) * span->weight,
+                  of_stride = window->steps > 1u ? twice : ZERO;
+    rise_t v = {ZERO, INSOLE_REAL_MAX};
+    phase_t half = phase_of(window, span->first);
+    insole_vec3_t a;
+    for (uint64_t k = span->first; k < span->end && find_turned(motion, span, k, &a); k++) {
+        a = insole_vec3_sub(a, mean);
+        /* [PhoneUKF (26)] */
+        moments->scatter = insole_sym3_add_outer(moments->scatter, span->weight, a);
+        add_wave(&moments->step, twice, sum_of(half.now, half.now), a);
+        add_wave(&moments->stride, of_stride, half.now, a);
+        rise(&v, a, moments);
+        half.now = sum_of(half.now, half.per_slot);
+    }
 }
 
 insole_status_t insole_gait_motion_look(const insole_gait_motion_t *motion,
@@ -182,20 +245,20 @@ insole_status_t insole_gait_motion_look(const insole_gait_motion_t *motion,
     if (status != INSOLE_OK) {
         return status;
     }
-    span_t span = span_of(window);
-    insole_vec3_t mean, a;
-    if (!find_mean_of_all(motion, span, &mean)) {
+    if (!insole_gait_motion_reaches(motion, window->begin_us)) {
         return INSOLE_ERR_STATE;
     }
-    rise_t v = {ZERO, INSOLE_REAL_MAX, ZERO, ZERO, insole_vec3_zero()};
-    moments->scatter = insole_sym3_zero();
-    for (uint64_t k = span.first; k < span.end && find_mean(motion, k, &a); k++) {
-        a = insole_vec3_sub(a, mean);
-        /* [PhoneUKF (26)] */
-        moments->scatter = insole_sym3_add_outer(moments->scatter, span.weight, a);
-        rise(&v, a, span.weight, moments);
+    span_t span = span_of(motion, window);
+    insole_vec3_t mean;
+    if (!find_mean_of_all(motion, &span, &mean)) {
+        return INSOLE_ERR_STATE;
     }
-    refer(moments, window, &v);
-    moments->device_rad = motion->slots[place_of(span.end - 1u)].device_rad;
+    memset(moments, 0, sizeof *moments);
+    moments->force_mps2 = mean;
+    sum_up(motion, window, &span, mean, moments);
+    moments->device_rad = motion->slots[place_of(span.end - 1u)].facing.device_rad;
+    moments->facing_rad = span.facing_rad;
+    moments->turned_rad =
+        insole_wrap_pi(turned_at(motion, span.end - 1u) - turned_at(motion, span.first));
     return INSOLE_OK;
 }

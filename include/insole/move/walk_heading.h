@@ -1,8 +1,9 @@
 /** @file walk_heading.h  Which way somebody walks, however the phone lies on them.
  *
  *  Source  [PhoneUKF] 5.3, eqs. (19)-(25), (29)-(31): RMPCA; its rival uDirect as 2 and 7.2 tell of
- * it. Sign, the variance's second part and the method `gait` are our own. Frames  b: phone, any
- * mounting.  n: local level, z up.
+ *          it. What is kept from step to step, the sign, the variance's other parts and the method
+ *          `gait` are our own.
+ *  Frames  b: phone, any mounting.  n: local level, z up.
  *
  *      static insole_walk_heading_t walk;
  *      insole_walk_heading_init(&walk, &insole_walk_heading_defaults);
@@ -11,26 +12,33 @@
  *      on each step, up to 5 s late:
  *          if (insole_walk_heading_step(&walk, &footfall, &walked) == INSOLE_OK) use(&walked);
  *
- *  Samples are turned to n when they come and wait in slots of 0.05 s (gait_motion.h). A step's
- *  scatter matrix about the mean, all of 3x3, is all that the principal axis and the unscented
- *  transform of its error need: a wrong attitude turns the matrix.
+ *  Samples are turned to n when they come and wait in slots of 0.05 s (gait_motion.h). Along the
+ *  way a trunk moves at the frequency of the steps; it sways at half of it. So the scatter of the
+ *  former counts whole and all else little (`sway_weight`): an arm that swings still outweighs its
+ *  own sway. The scatter matrices of the steps are summed and slowly forgotten (`axis_keep`), in a
+ *  frame that turns with the phone (yaw_track.h), for a walker turns with it, until it is tipped
+ *  over. With weight 1, nothing kept and windows of one step it is the paper's.
  *
- *  An axis has two ends. A walker falls from midstance to heel strike and is pushed on meanwhile:
- *  the forward acceleration leads the vertical one by some share of the step, a quarter for the
- *  trunk, less for a hand. The correlation of the level acceleration with the vertical one so
- *  shifted is a vector that points ahead: evidence. It is summed over the steps and slowly
- *  forgotten, and the end is taken that the sum is for. So one bad step turns nobody round, a
- * walker may turn as they like, and the phone may turn in the hand: all of it is in n.
+ *  An attitude that takes what a swinging arm feels for gravity is off by some degrees for as long
+ *  as it swings. But over whole strides the mean force of who walks evenly is upright: by it the
+ *  motion is levelled (`level`), the mean kept like the scatter.
  *
- *  `rmpca`: the axis, as in the paper.  `udirect`: the acceleration at one moment of each step,
- * when the body falls fastest.  `device`: where the phone points (heading.h).  `gait`: that
- * correlation itself; a sway does not take part in it, for it has twice the period.
+ *  An axis has two ends. The trunk falls from midstance to heel strike and is pushed on meanwhile:
+ *  its forward acceleration leads the vertical one by a quarter of a step, that of a hand or a leg
+ *  by less; none by more than a half. An arm or a thigh swings farther and higher ahead than back:
+ *  at the frequency of a stride the forward acceleration goes with the vertical one, where a
+ *  pendulum's own rise, twice as fast, does not take part. Both products, weighed by their size,
+ *  are a vector that points ahead: evidence. It is summed over the steps in the same way, and the
+ *  end is taken that the sum is for. So one bad step turns nobody round.
+ *
+ *  `rmpca`: the axis.  `udirect`: the acceleration at one moment of each step, when the body falls
+ *  fastest.  `device`: where the phone points (heading.h).  `gait`: the evidence of a window.
  *
  *  The variance is that of the attitude through the unscented transform, that of an axis of
- *  scattered motion, and that by which the axes of the last steps differ: who shakes a phone along
- *  a line gives it a sharp axis too, but another with each step. It speaks of the axis; which end
- * of it is right, `is_certain` tells. The covariance of the attitude is the newest one, not that of
- * the step.
+ *  scattered motion, that by which the axes of the last steps differ (who shakes a phone along a
+ *  line gives it a sharp axis too, but another with each step), and that of turning. It speaks of
+ *  the axis; which end of it is right, `is_certain` tells. The covariance of the attitude is the
+ *  newest one, not that of the step.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -38,7 +46,9 @@
 #define INSOLE_MOVE_WALK_HEADING_H
 
 #include "insole/base/config.h"
+#include "insole/move/gait_memory.h"
 #include "insole/move/gait_motion.h"
+#include "insole/move/yaw_track.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -58,8 +68,16 @@ typedef enum {
     KEY(CHOICE, method, 0, 0, 3, "rmpca|udirect|device|gait", "what tells the direction")         \
     KEY(INT, steps, 2, 1, 4, "",                                                                  \
         "steps in a row that are looked at together (udirect: always 1); 1: as in the paper")     \
-    KEY(REAL, lead_rad, 0.9, -3.2, 3.2, "rad",                                                    \
-        "phase by which the forward acceleration leads the vertical one")                         \
+    KEY(REAL, sway_weight, 0.15, 0.0, 1.0, "",                                                    \
+        "weight of motion at other than a step's frequency; 1 = as in the paper")                 \
+    KEY(REAL, axis_keep, 0.9, 0.0, 0.99, "",                                                      \
+        "kept from step to step of what tells the axis; 0 = as in the paper")                     \
+    KEY(CHOICE, turned_by, 0, 0, 1, "walker|hand", "who has turned when the phone has")           \
+    KEY(REAL, tipped_rad, 0.9, 0.1, 3.2, "rad", "a phone tipped over by so much is carried anew") \
+    KEY(CHOICE, level, 1, 0, 1, "attitude|mean", "what tells the vertical: the attitude alone, "  \
+        "or the mean force of the steps that are kept")                                           \
+    KEY(REAL, lead_rad, 1.1, -3.2, 3.2, "rad",                                                    \
+        "phase of a step by which the forward acceleration leads the vertical one")               \
     KEY(REAL, least_mps2, 0.15, 0.01, 10.0, "m/s^2",                                              \
         "a level acceleration of smaller rms along its axis has no direction")                    \
     KEY(REAL, sigma_tilt_rad, 0.03, 0.0, 1.0, "rad",                                              \
@@ -69,10 +87,12 @@ typedef enum {
         "variance by motion across the axis, over its share; 0 = off")                            \
     KEY(REAL, wander_share, 0.7, 0.0, 100.0, "",                                                  \
         "variance over that between the axes of steps in a row; 0 = off")                         \
-    KEY(REAL, keep_share, 0.75, 0.0, 0.99, "",                                                    \
+    KEY(REAL, turn_share, 0.2, 0.0, 10.0, "",                                                     \
+        "1-sigma by turning, over the angle turned; 0 = off")                                     \
+    KEY(REAL, keep_share, 0.9, 0.0, 0.99, "",                                                     \
         "kept from step to step of the evidence for the end, and of how axes wander")             \
     KEY(REAL, forget_s, 5.0, 0.1, 1000.0, "s",                                                    \
-        "time constant of the evidence between two walks")                                        \
+        "time constant of all that is kept, between two walks")                                        \
     KEY(REAL, certain_evidence, 1.5, 0.0, 100.0, "", "evidence from which the end is certain")
 /* clang-format on */
 
@@ -91,14 +111,12 @@ typedef struct {
 
 typedef struct {
     insole_walk_heading_config_t config;
-    insole_gait_motion_t motion;   /**< of the last 6.4 s, in n */
+    insole_gait_motion_t motion; /**< of the last 6.4 s, in n */
+    insole_yaw_track_t yaw;
     insole_sym3_t cov_rad2;        /**< of the small rotation in n, newest */
     insole_real_t device_var_rad2; /**< of the heading of the phone, newest */
     insole_walk_heading_row_t row;
-    insole_spot_t pull; /**< n, evidence for a direction: sum of correlations, forgotten slowly */
-    bool has_axis;
-    insole_real_t axis_rad; /**< of the newest step, either end */
-    insole_real_t wander;   /**< mean square of the sine between one axis and the next */
+    insole_gait_memory_t memory;
     uint32_t refused;
 } insole_walk_heading_t;
 
