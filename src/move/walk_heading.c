@@ -225,13 +225,20 @@ static void see(insole_walk_heading_t *walk, seen_t *seen)
     seen->ahead = insole_gait_ahead(&seen->moments, c->lead_rad, seen->tilt_rad2);
 }
 
+/* Steps that were looked at together share what they moved: so much of their number is not new. */
+static insole_real_t share_of_one(const insole_walk_heading_t *walk)
+{
+    insole_real_t together = insole_min((insole_real_t)walk->config.steps, walk->memory.steps);
+    bool is_mean = walk->config.method == INSOLE_WALK_HEADING_RMPCA;
+    return is_mean ? together / walk->memory.steps : ONE;
+}
+
 /* Beside that of the attitude. */
 static insole_real_t variance_of(const insole_walk_heading_t *walk, const seen_t *seen,
                                  insole_real_t spread)
 {
     const insole_walk_heading_config_t *c = &walk->config;
-    bool is_mean = c->method == INSOLE_WALK_HEADING_RMPCA;
-    insole_real_t per = ONE / (is_mean ? walk->memory.steps : ONE);
+    insole_real_t per = share_of_one(walk);
     return insole_square(c->sigma_rad) + insole_square(c->turn_share * seen->moments.turned_rad) +
            per * c->wander_share * insole_gait_memory_wander(&walk->memory) +
            per * c->scatter_share * insole_min(spread, MOST_SPREAD);

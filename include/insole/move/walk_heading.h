@@ -82,10 +82,10 @@ typedef enum {
         "a level acceleration of smaller rms along its axis has no direction")                    \
     KEY(REAL, sigma_tilt_rad, 0.03, 0.0, 1.0, "rad",                                              \
         "1-sigma of a tilt that the covariance of the attitude does not know")                    \
-    KEY(REAL, sigma_rad, 0.1, 0.0, 3.0, "rad", "1-sigma of the best direction of a step")         \
+    KEY(REAL, sigma_rad, 0.02, 0.0, 3.0, "rad", "1-sigma of the best direction of a step")         \
     KEY(REAL, scatter_share, 0.05, 0.0, 100.0, "",                                                \
         "variance by motion across the axis, over its share; 0 = off")                            \
-    KEY(REAL, wander_share, 0.7, 0.0, 100.0, "",                                                  \
+    KEY(REAL, wander_share, 0.8, 0.0, 100.0, "",                                                  \
         "variance over that between the axes of steps in a row; 0 = off")                         \
     KEY(REAL, turn_share, 0.2, 0.0, 10.0, "",                                                     \
         "1-sigma by turning, over the angle turned; 0 = off")                                     \
@@ -93,7 +93,7 @@ typedef enum {
         "kept from step to step of the evidence for the end, and of how axes wander")             \
     KEY(REAL, forget_s, 5.0, 0.1, 1000.0, "s",                                                    \
         "time constant of all that is kept, between two walks")                                        \
-    KEY(REAL, certain_evidence, 1.5, 0.0, 100.0, "", "evidence from which the end is certain")
+    KEY(REAL, certain_evidence, 2.5, 0.0, 100.0, "", "evidence from which the end is certain")
 /* clang-format on */
 
 typedef struct {
