@@ -190,11 +190,14 @@ static void choose_end(insole_walk_heading_t *walk, insole_real_t rad, insole_sp
     walked->is_certain = walked->evidence >= walk->config.certain_evidence;
 }
 
-/* What the attitude does not know of its tilt is added. */
+/* What the attitude does not know of its tilt is added; what is levelled by the mean force has none
+ * of its tilt. */
 static insole_sym3_t cov_of(const insole_walk_heading_t *walk)
 {
     insole_real_t tilt_rad2 = insole_square(walk->config.sigma_tilt_rad);
-    return insole_sym3_add(walk->cov_rad2, insole_sym3_diagonal(tilt_rad2, tilt_rad2, ZERO));
+    insole_sym3_t tilt = insole_sym3_diagonal(tilt_rad2, tilt_rad2, ZERO);
+    insole_sym3_t upright = insole_sym3_diagonal(ZERO, ZERO, walk->cov_rad2.zz);
+    return insole_sym3_add(walk->config.level == 1 ? upright : walk->cov_rad2, tilt);
 }
 
 /* From one walk to the next. */
@@ -246,8 +249,11 @@ static insole_real_t variance_of(const insole_walk_heading_t *walk, const seen_t
 
 static void find_direction(insole_walk_heading_t *walk, const seen_t *seen, insole_walked_t *walked)
 {
-    insole_gait_memory_add(&walk->memory, seen->steps_own, walk->config.keep_share);
+    bool is_mean = walk->config.method == INSOLE_WALK_HEADING_RMPCA;
+    insole_gait_memory_add(&walk->memory, seen->steps_own);
     look_t look = look_by(walk->config.method, seen, &walk->memory);
+    insole_real_t alone_rad = is_mean ? insole_walk_axis_of(seen->steps_own).rad : look.axis.rad;
+    insole_gait_memory_note(&walk->memory, alone_rad, walk->config.keep_share);
     insole_real_t off_rad, variance_rad2; /* of the small angle, [PhoneUKF (19)] */
     insole_walk_axis_through(&look.axis, seen->P, &off_rad, &variance_rad2);
     choose_end(walk, look.axis.rad + off_rad, look.pull, walked);
