@@ -25,7 +25,7 @@ NEAR_RAD = math.radians(15.0)
 # A phone's gyroscope after its own calibration, and no radio. With a compass the gyroscope's noise
 # need not cover what a bias does over the whole walk.
 SETTINGS = ("phone.mounting=random", "radio.model=off", "imu.gyro_bias_radps=0.001",
-            "attitude.gyro_noise_rad_rts=0.008")
+            "attitude.gyro_noise_rad_rts=0.006")
 
 
 def walk(given, pose, seed):

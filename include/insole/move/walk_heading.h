@@ -68,9 +68,9 @@ typedef enum {
     KEY(CHOICE, method, 0, 0, 3, "rmpca|udirect|device|gait", "what tells the direction")         \
     KEY(INT, steps, 2, 1, 4, "",                                                                  \
         "steps in a row that are looked at together (udirect: always 1); 1: as in the paper")     \
-    KEY(REAL, sway_weight, 0.15, 0.0, 1.0, "",                                                    \
+    KEY(REAL, sway_weight, 0.1, 0.0, 1.0, "",                                                    \
         "weight of motion at other than a step's frequency; 1 = as in the paper")                 \
-    KEY(REAL, axis_keep, 0.9, 0.0, 0.99, "",                                                      \
+    KEY(REAL, axis_keep, 0.93, 0.0, 0.99, "",                                                      \
         "kept from step to step of what tells the axis; 0 = as in the paper")                     \
     KEY(CHOICE, turned_by, 0, 0, 1, "walker|hand", "who has turned when the phone has")           \
     KEY(REAL, tipped_rad, 0.9, 0.1, 3.2, "rad", "a phone tipped over by so much is carried anew") \
