@@ -2,7 +2,6 @@
 #include "insole/move/gait_memory.h"
 
 #include "insole/base/sym2.h"
-#include "insole/move/walk_axis.h"
 
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
@@ -36,7 +35,8 @@ void insole_gait_memory_fade(insole_gait_memory_t *memory, insole_real_t facing_
         insole_sym3_add_scaled(insole_sym3_zero(), axis_share, turned_sym3(memory->scatter, turn));
     memory->steps *= axis_share;
     memory->pull = insole_spot_scale(pull_share, insole_turn_way(turn, memory->pull));
-    memory->axis_rad = insole_wrap_pi(memory->axis_rad + by_rad);
+    memory->axis_rad[0] = insole_wrap_pi(memory->axis_rad[0] + by_rad);
+    memory->axis_rad[1] = insole_wrap_pi(memory->axis_rad[1] + by_rad);
 }
 
 static void turn_wave(insole_gait_wave_t *wave, insole_mat3_t E)
@@ -62,18 +62,24 @@ void insole_gait_memory_level(insole_gait_memory_t *memory, insole_gait_moments_
     turn_wave(&moments->stride, E);
 }
 
-void insole_gait_memory_add(insole_gait_memory_t *memory, insole_sym3_t scatter,
-                            insole_real_t wander_share)
+void insole_gait_memory_add(insole_gait_memory_t *memory, insole_sym3_t scatter)
 {
-    insole_real_t rad = insole_walk_axis_of(scatter).rad;
-    insole_real_t apart = insole_square(insole_sin(rad - memory->axis_rad));
-    insole_real_t kept = wander_share * (memory->wander - apart);
-    memory->wander = memory->has_axis ? apart + kept : FIRST_WANDER;
-    memory->has_axis = true;
-    memory->axis_rad = rad;
     insole_real_t per = ONE / (scatter.xx + scatter.yy + LITTLE);
     memory->scatter = insole_sym3_add_scaled(memory->scatter, per, scatter);
     memory->steps += ONE;
+}
+
+/* With the step before the last: a sway turns the axis to and fro from foot to foot, and is no
+ * error of the mean. */
+void insole_gait_memory_note(insole_gait_memory_t *memory, insole_real_t axis_rad,
+                             insole_real_t share)
+{
+    insole_real_t apart = insole_square(insole_sin(axis_rad - memory->axis_rad[1]));
+    insole_real_t kept = share * (memory->wander - apart);
+    memory->wander = memory->axes == 2u ? apart + kept : FIRST_WANDER;
+    memory->axes += memory->axes < 2u ? 1u : 0u;
+    memory->axis_rad[1] = memory->axis_rad[0];
+    memory->axis_rad[0] = axis_rad;
 }
 
 /* Were the differences normal, the mean of their sine squared would be (1 - exp(-2 variance)) / 2.

@@ -238,7 +238,6 @@ insole_status_t insole_gait_motion_look(const insole_gait_motion_t *motion,
                                         const insole_gait_window_t *window,
                                         insole_gait_moments_t *moments)
 {
-    static const insole_gait_moments_t none;
     if (!motion || !window || !moments) {
         return INSOLE_ERR_NULL;
     }
@@ -254,7 +253,7 @@ insole_status_t insole_gait_motion_look(const insole_gait_motion_t *motion,
     if (!find_mean_of_all(motion, &span, &mean)) {
         return INSOLE_ERR_STATE;
     }
-    *moments = none;
+    memset(moments, 0, sizeof *moments);
     moments->force_mps2 = mean;
     sum_up(motion, window, &span, mean, moments);
     moments->device_rad = motion->slots[place_of(span.end - 1u)].facing.device_rad;

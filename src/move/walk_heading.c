@@ -16,8 +16,6 @@ static const insole_real_t LARGEST_RAD2 = INSOLE_R(100.0);
 static const insole_real_t MOST_SPREAD = INSOLE_R(1.0e6); /* and of no end without scatter */
 static const insole_real_t UNKNOWN_RAD2 = INSOLE_PI * INSOLE_PI / INSOLE_R(3.0);
 
-static const insole_gait_memory_t nothing;
-
 const insole_walk_heading_config_t insole_walk_heading_defaults = {
     INSOLE_WALK_HEADING_KEYS(INSOLE_CONFIG_DEFAULT)};
 
@@ -84,7 +82,7 @@ insole_status_t insole_walk_heading_push(insole_walk_heading_t *walk, insole_qua
     }
     walk->yaw = yaw;
     if (follows && tipped) {
-        walk->memory = nothing;
+        memset(&walk->memory, 0, sizeof walk->memory);
     }
     walk->cov_rad2 = *cov_rad2;
     walk->device_var_rad2 = device.variance_rad2;
@@ -192,11 +190,14 @@ static void choose_end(insole_walk_heading_t *walk, insole_real_t rad, insole_sp
     walked->is_certain = walked->evidence >= walk->config.certain_evidence;
 }
 
-/* What the attitude does not know of its tilt is added. */
+/* What the attitude does not know of its tilt is added; what is levelled by the mean force has none
+ * of its tilt. */
 static insole_sym3_t cov_of(const insole_walk_heading_t *walk)
 {
     insole_real_t tilt_rad2 = insole_square(walk->config.sigma_tilt_rad);
-    return insole_sym3_add(walk->cov_rad2, insole_sym3_diagonal(tilt_rad2, tilt_rad2, ZERO));
+    insole_sym3_t tilt = insole_sym3_diagonal(tilt_rad2, tilt_rad2, ZERO);
+    insole_sym3_t upright = insole_sym3_diagonal(ZERO, ZERO, walk->cov_rad2.zz);
+    return insole_sym3_add(walk->config.level == 1 ? upright : walk->cov_rad2, tilt);
 }
 
 /* From one walk to the next. */
@@ -227,13 +228,20 @@ static void see(insole_walk_heading_t *walk, seen_t *seen)
     seen->ahead = insole_gait_ahead(&seen->moments, c->lead_rad, seen->tilt_rad2);
 }
 
+/* Steps that were looked at together share what they moved: so much of their number is not new. */
+static insole_real_t share_of_one(const insole_walk_heading_t *walk)
+{
+    insole_real_t together = insole_min((insole_real_t)walk->config.steps, walk->memory.steps);
+    bool is_mean = walk->config.method == INSOLE_WALK_HEADING_RMPCA;
+    return is_mean ? together / walk->memory.steps : ONE;
+}
+
 /* Beside that of the attitude. */
 static insole_real_t variance_of(const insole_walk_heading_t *walk, const seen_t *seen,
                                  insole_real_t spread)
 {
     const insole_walk_heading_config_t *c = &walk->config;
-    bool is_mean = c->method == INSOLE_WALK_HEADING_RMPCA;
-    insole_real_t per = ONE / (is_mean ? walk->memory.steps : ONE);
+    insole_real_t per = share_of_one(walk);
     return insole_square(c->sigma_rad) + insole_square(c->turn_share * seen->moments.turned_rad) +
            per * c->wander_share * insole_gait_memory_wander(&walk->memory) +
            per * c->scatter_share * insole_min(spread, MOST_SPREAD);
@@ -241,8 +249,11 @@ static insole_real_t variance_of(const insole_walk_heading_t *walk, const seen_t
 
 static void find_direction(insole_walk_heading_t *walk, const seen_t *seen, insole_walked_t *walked)
 {
-    insole_gait_memory_add(&walk->memory, seen->steps_own, walk->config.keep_share);
+    bool is_mean = walk->config.method == INSOLE_WALK_HEADING_RMPCA;
+    insole_gait_memory_add(&walk->memory, seen->steps_own);
     look_t look = look_by(walk->config.method, seen, &walk->memory);
+    insole_real_t alone_rad = is_mean ? insole_walk_axis_of(seen->steps_own).rad : look.axis.rad;
+    insole_gait_memory_note(&walk->memory, alone_rad, walk->config.keep_share);
     insole_real_t off_rad, variance_rad2; /* of the small angle, [PhoneUKF (19)] */
     insole_walk_axis_through(&look.axis, seen->P, &off_rad, &variance_rad2);
     choose_end(walk, look.axis.rad + off_rad, look.pull, walked);

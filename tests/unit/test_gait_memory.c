@@ -43,12 +43,13 @@ START_TEST(all_turns_along)
         begin();
         insole_gait_moments_t m = {.force_mps2 = insole_vec3(1, 0, 9)};
         insole_gait_memory_level(&memory, &m);
-        insole_gait_memory_add(&memory, scatter_along(0.4, 2.0, 0.5), INSOLE_R(0.9));
+        insole_gait_memory_add(&memory, scatter_along(0.4, 2.0, 0.5));
+        insole_gait_memory_note(&memory, INSOLE_R(0.4), INSOLE_R(0.9));
         memory.pull = insole_spot(2, 1);
         insole_sym3_t before = memory.scatter;
         insole_gait_memory_fade(&memory, (insole_real_t)turn, INSOLE_R(0.8), INSOLE_R(0.5));
         worst_note(&off, fabs(remainder(axis_of(&memory) - 0.4 - turn, PI)), i);
-        worst_note(&off, fabs(remainder((double)memory.axis_rad - 0.4 - turn, PI)), i);
+        worst_note(&off, fabs(remainder((double)memory.axis_rad[0] - 0.4 - turn, PI)), i);
         worst_note(&off, fabs((double)(memory.scatter.zz - INSOLE_R(0.8) * before.zz)), i);
         d3_t tilted = d3(0.8 * (double)before.xz, 0.8 * (double)before.yz, 0.0);
         tilted = d33_apply(turn_z(turn), tilted);
@@ -70,11 +71,11 @@ END_TEST
 START_TEST(steps_count_alike)
 {
     begin();
-    insole_gait_memory_add(&memory, scatter_along(0.0, 100.0, 1.0), INSOLE_R(0.9));
-    insole_gait_memory_add(&memory, scatter_along(0.6, 1000.0, 10.0), INSOLE_R(0.9));
+    insole_gait_memory_add(&memory, scatter_along(0.0, 100.0, 1.0));
+    insole_gait_memory_add(&memory, scatter_along(0.6, 1000.0, 10.0));
     ASSERT_NEAR(axis_of(&memory), 0.3, 1.0e-3, "rad");
     ASSERT_NEAR(memory.steps, 2.0, 4.0 * EPS, "");
-    insole_gait_memory_add(&memory, scatter_along(1.5, 0.001, 0.0), INSOLE_R(0.9));
+    insole_gait_memory_add(&memory, scatter_along(1.5, 0.001, 0.0));
     ASSERT_NEAR(axis_of(&memory), 0.3, 0.01, "rad");
 }
 END_TEST
@@ -143,18 +144,23 @@ START_TEST(wander_is_the_variance_of_an_axis)
     insole_rng_t rng;
     insole_rng_seed(&rng, 2u);
     begin();
-    insole_gait_memory_add(&memory, scatter_along(0.0, 1.0, 0.1), INSOLE_R(0.99));
+    insole_gait_memory_note(&memory, 0, INSOLE_R(0.99));
     ASSERT_NEAR(insole_gait_memory_wander(&memory), -0.5 * log(0.8), 4.0 * EPS, "rad^2");
     double sum = 0.0;
     enum { STEPS = 3000, SETTLED = 500 };
     for (int i = 0; i < STEPS; i++) {
         double angle = sigma * (double)insole_rng_normal(&rng);
-        insole_gait_memory_add(&memory, scatter_along(angle, 1.0, 0.1), INSOLE_R(0.99));
+        insole_gait_memory_note(&memory, (insole_real_t)angle, INSOLE_R(0.99));
         sum += i >= SETTLED ? (double)insole_gait_memory_wander(&memory) / (STEPS - SETTLED) : 0.0;
     }
     ASSERT_NEAR(sum, 2.0 * sigma * sigma, 0.1 * sigma * sigma, "rad^2");
+    begin();
+    for (int i = 0; i < 50; i++) { /* a sway: the same for each foot */
+        insole_gait_memory_note(&memory, (insole_real_t)(i % 2 * 0.4), INSOLE_R(0.5));
+    }
+    ASSERT_NEAR(insole_gait_memory_wander(&memory), 0.0, 1.0e-6, "rad^2");
     for (int i = 0; i < 50; i++) { /* at right angles: as wild as can be, and finite */
-        insole_gait_memory_add(&memory, scatter_along(i * 0.5 * PI, 1.0, 0.1), 0);
+        insole_gait_memory_note(&memory, (insole_real_t)(i / 2 % 2 * 0.5 * PI), 0);
     }
     ASSERT_NEAR(insole_gait_memory_wander(&memory), -0.5 * log(0.002), 1.0e-4, "rad^2");
 }

@@ -38,6 +38,9 @@ static void begin_exact(int32_t method)
     config = insole_walk_heading_defaults;
     config.method = method;
     config.sigma_tilt_rad = config.sigma_rad = config.scatter_share = config.wander_share = 0;
+    config.turn_share = config.axis_keep = 0;
+    config.sway_weight = 1;
+    config.level = 0;
     config.least_mps2 = INSOLE_R(0.01);
     ck_assert_int_eq(insole_walk_heading_init(&walk, &config), INSOLE_OK);
 }
@@ -265,7 +268,7 @@ typedef struct {
 /* What came of a step. */
 typedef struct {
     insole_status_t status;
-    double end_s, off_rad; /* truth: middle of what was looked at */
+    double end_s, off_rad; /* truth: middle of the step */
     insole_walked_t walked;
 } told_t;
 
@@ -320,8 +323,9 @@ static void take_trip(const trip_t *trip, int steps, int late)
             told_t *d = &told[next++];
             d->status = insole_walk_heading_step(&walk, &f, &d->walked);
             d->end_s = end;
-            d->off_rad = remainder(
-                (double)d->walked.direction_rad - stroll_heading(&trip->stroll, end - T), 2.0 * PI);
+            d->off_rad = remainder((double)d->walked.direction_rad -
+                                       stroll_heading(&trip->stroll, end - 0.5 * T),
+                                   2.0 * PI);
         }
     }
 }
@@ -477,12 +481,13 @@ START_TEST(a_turn_is_followed)
 }
 END_TEST
 
-/* The phone is turned over and over in the hand. */
+/* The phone is turned over and over in the hand, and who is asked knows that it is. */
 START_TEST(a_turn_of_the_phone_does_not_matter)
 {
     trip_t trip = plain_trip(STROLL_CALL);
     trip.noise_mps2 = 0.0;
     begin(INSOLE_WALK_HEADING_RMPCA);
+    walk.config.turned_by = 1;
     take_trip(&trip, 20, 0);
     double still[20];
     for (int i = 0; i < 20; i++) {
@@ -490,6 +495,7 @@ START_TEST(a_turn_of_the_phone_does_not_matter)
     }
     trip.hand_rad_ps = 1.5;
     begin(INSOLE_WALK_HEADING_RMPCA);
+    walk.config.turned_by = 1;
     take_trip(&trip, 20, 0);
     worst_t apart = {0.0, 0.0};
     for (int i = 0; i < 20; i++) {
@@ -812,6 +818,9 @@ START_TEST(all_that_is_told_is_finite)
     for (int trial = 0; trial < 400; trial++) {
         begin_exact(trial % 4);
         walk.config.steps = 1 + trial % 3;
+        walk.config.level = trial / 4 % 2;
+        walk.config.turned_by = trial / 8 % 2;
+        walk.config.axis_keep = walk.config.sway_weight = (insole_real_t)(trial % 5) / 5;
         walk.config.scatter_share = walk.config.wander_share = (insole_real_t)(trial % 2);
         uint64_t t_us = insole_rng_bits(&rng) % 200000u, last_us = t_us;
         insole_real_t size = wild(&rng);
@@ -831,7 +840,7 @@ START_TEST(all_that_is_told_is_finite)
                 worst_require(&bad, (double)w.variance_rad2 <= PI * PI / 3.0 + 1.0e-6, trial);
                 worst_require(&bad, w.ratio >= 0 && (double)w.ratio <= 1.0 + 10.0 * EPS, trial);
                 worst_require(&bad, insole_is_finite(w.rms_mps2 + w.evidence), trial);
-                worst_require(&bad, insole_spot_is_finite(walk.pull), trial);
+                worst_require(&bad, insole_spot_is_finite(walk.memory.pull), trial);
             }
         }
     }

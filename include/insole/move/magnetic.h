@@ -30,7 +30,7 @@ extern "C" {
 /* clang-format off */
 #define INSOLE_MAGNETIC_KEYS(KEY)                                                                 \
     KEY(CHOICE, use, 0, 0, 1, "off|on", "corrections of the attitude by the magnetic field")      \
-    KEY(REAL, noise_ut_rts, 3.0, 0.01, 1000.0, "uT*sqrt(s)",                                      \
+    KEY(REAL, noise_ut_rts, 5.0, 0.01, 1000.0, "uT*sqrt(s)",                                      \
         "noise density of a field that looks undisturbed")                                        \
     KEY(REAL, soft_ut, 2.0, 0.0, 1000.0, "uT",                                                    \
         "deviation in strength and dip that doubles the variance; 0 = off")                       \
