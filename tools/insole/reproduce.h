@@ -20,7 +20,7 @@
 #include "json.h"
 #include "replay.h"
 
-enum { REPRODUCE_ROWS = 16, REPRODUCE_RUNS_MAX = 1000, REPRODUCE_AXES = 4 };
+enum { REPRODUCE_ROWS = 16, REPRODUCE_RUNS_MAX = 1000, REPRODUCE_AXES = 5 };
 
 /** What is told of the errors of a walk; each paper prints some of them. */
 typedef enum {
