@@ -61,7 +61,7 @@ char *reproduce_search_settings(const reproduce_row_t *row, int combination)
         const reproduce_axis_t *axis = &row->axes[i];
         size_t used = strlen(text);
         snprintf(text + used, ROOM - used, "%s%s=%s", i > 0 ? " " : "", axis->key,
-                 number_fixed(number, axis->values[value_of(row, combination, i)], 3));
+                 number_short(number, axis->values[value_of(row, combination, i)]));
     }
     return text;
 }
@@ -163,7 +163,7 @@ static void print_axis(FILE *file, const reproduce_axis_t *axis, int best)
     fprintf(file, "  %s:", axis->key);
     for (int i = 0; i < axis->count; i++) {
         char number[NUMBER_ROOM];
-        fprintf(file, i == best ? " [%s]" : " %s", number_fixed(number, axis->values[i], 3));
+        fprintf(file, i == best ? " [%s]" : " %s", number_short(number, axis->values[i]));
     }
     fputc('\n', file);
 }
