@@ -87,7 +87,7 @@ static bool try_settings(const reproduction_t *reproduction, const reproduce_row
     return is_good;
 }
 
-/* What is tried comes after what the row has, and so before it. */
+/* What is tried stands behind what the row has: of a key set twice the last counts. */
 static bool try_combination(reproduce_search_t *search, int row, int combination,
                             failure_t *failure)
 {
