@@ -28,10 +28,10 @@ static const reproduce_kind_t kinds[] = {
 /* Fixes tell of misfits, and no gate holds them off. The widths of the kernels and the sigmas of
  * steps are the best for the proposed filter of a descent over seeds 1001 to 1016. */
 static const char *const settings[] = {"step_length.model=linear",
-                                       "phone_walk.sigma_length_share=0.05",
+                                       "phone_walk.sigma_length_share=0.03",
                                        "phone_walk.faces=any",
                                        "phone_walk.gait=step",
-                                       "walk_heading.sigma_rad=0.2",
+                                       "walk_heading.sigma_rad=0.15",
                                        "phone_compass.north_rad=1.5208",
                                        "magnetic.use=on",
                                        "kde_fix.kernel=gauss",
@@ -61,16 +61,16 @@ static const char *const notes[] = {
     }
 
 static const double sigmas[] = {1.0, 2.0, 3.0}, leasts_m[] = {1.0, 1.5, 2.0};
-static const double widens[] = {0.5, 1.0, 2.0, 4.0, 8.0};
+static const double widens[] = {0.5, 1.0, 2.0};
 static const reproduce_axis_t ukf_axes[] = {AXIS("phone_tracker.trust_sigmas", sigmas),
                                             AXIS("phone_tracker.trust_least_m", leasts_m),
                                             AXIS("kde_fix.widen", widens)};
 
 /* A rival has its own radius of (37) too: the covariance that it comes from is its own. */
-static const double rival_sigmas[] = {1.0, 2.0}, rival_leasts_m[] = {1.5, 2.0, 2.5};
-static const double fixes_m[] = {0.25, 0.4, 0.7, 1.2, 2.0};
+static const double rival_sigmas[] = {1.0, 2.0, 3.0}, rival_leasts_m[] = {1.5, 2.0};
+static const double fixes_m[] = {0.1, 0.25, 0.4, 0.7, 1.2};
 static const double ways_m[] = {0.05, 0.1, 0.2, 0.3, 0.45, 0.7};
-static const double lengths_m[] = {0.03, 0.2}, headings_rad[] = {0.2, 0.3, 0.5, 0.8};
+static const double lengths_m[] = {0.03, 0.1}, headings_rad[] = {0.1, 0.2, 0.3, 0.5};
 
 #define RIVAL                                                                                      \
     AXIS("phone_tracker.trust_sigmas", rival_sigmas),                                              \
@@ -82,11 +82,13 @@ static const reproduce_axis_t const_axes[] = {RIVAL, AXIS("step_fusion.sigma_len
                                               AXIS("step_fusion.sigma_heading_rad", headings_rad)};
 
 /* Without an area the kernels are others. */
-static const double kernels_db[] = {3.5, 5.0, 8.0};
-static const double far_fixes_m[] = {2.0, 3.0, 5.0, 8.0}, far_headings_rad[] = {0.1, 0.2, 0.3, 0.5};
+static const double kernels_db[] = {2.5, 3.5, 5.0, 8.0};
+static const double far_widens[] = {2.0, 4.0, 8.0, 16.0};
+static const double far_fixes_m[] = {3.0, 5.0, 8.0, 12.0},
+                    far_headings_rad[] = {0.2, 0.3, 0.5, 0.8};
 static const reproduce_axis_t wifi_axes[] = {AXIS("kde_fix.sigma_db", kernels_db)};
 static const reproduce_axis_t whole_axes[] = {AXIS("kde_fix.sigma_db", kernels_db),
-                                              AXIS("kde_fix.widen", widens)};
+                                              AXIS("kde_fix.widen", far_widens)};
 static const reproduce_axis_t const_whole_axes[] = {
     AXIS("kde_fix.sigma_db", kernels_db), AXIS("step_fusion.sigma_fix_m", far_fixes_m),
     AXIS("step_fusion.sigma_length_m", lengths_m),
