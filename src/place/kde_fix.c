@@ -12,6 +12,8 @@
  * reading is there only when it happens to be strong. Twice the mean of both sides, dBm. */
 #define STRONG_SUM_DBM INSOLE_R(-150.0)
 
+static const insole_real_t LEAST_MISFIT = INSOLE_R(0.1), MOST_MISFIT = INSOLE_R(100.0);
+
 const insole_kde_fix_config_t insole_kde_fix_defaults = {
     INSOLE_KDE_FIX_KEYS(INSOLE_CONFIG_DEFAULT)};
 
@@ -143,6 +145,25 @@ static void learn_offset(insole_kde_fix_t *kde, const insole_radio_map_t *map)
     kde->offset_db = insole_max(-most_db, insole_min(kde->offset_db + weight * over_db, most_db));
 }
 
+/* Mean square difference to the point that fits best, in widths of the kernel. */
+static insole_real_t misfit_of(const insole_kde_fix_t *kde)
+{
+    insole_real_t squares = -TWO * kde->search.mixture.log_top;
+    insole_real_t mean = squares / (insole_real_t)kde->search.heard.count;
+    return insole_min(insole_max(mean, LEAST_MISFIT), MOST_MISFIT);
+}
+
+static void tell_misfit(const insole_kde_fix_t *kde, insole_radio_fix_t *fix)
+{
+    const insole_kde_fix_config_t *c = &kde->config;
+    if (c->misfit == INSOLE_KDE_FIX_MISFIT_TOLD && c->kernel == INSOLE_KDE_FIX_GAUSS) {
+        insole_real_t factor = misfit_of(kde);
+        fix->var_x_m2 *= factor;
+        fix->cov_xy_m2 *= factor;
+        fix->var_y_m2 *= factor;
+    }
+}
+
 insole_status_t insole_kde_fix_finish(insole_kde_fix_t *kde, const insole_radio_map_t *map,
                                       insole_radio_fix_t *fix)
 {
@@ -156,6 +177,7 @@ insole_status_t insole_kde_fix_finish(insole_kde_fix_t *kde, const insole_radio_
     /* weights over their sum, [PhoneEKF (25)] [PhoneUKF (35)]; mean and covariance: its moments */
     insole_spot_mixture_cov(&kde->search.mixture, kde->search.mixture.mean,
                             kde->config.point_sigma_m, kde->config.widen, fix);
+    tell_misfit(kde, fix);
     fix->readings = kde->search.heard.count;
     if (kde->config.offset != 0) {
         learn_offset(kde, map);

@@ -228,7 +228,7 @@ static void ask_gait(insole_phone_walk_t *w, const insole_footfall_t *footfall, 
     }
     if (w->config.gait == 1) {
         pace->heading_rad = walked.direction_rad; /* [PhoneUKF (38)] */
-        pace->var_heading_rad2 = walked.variance_rad2;
+        pace->var_heading_rad2 = walked.is_certain ? walked.variance_rad2 : INSOLE_HEADING_MOST_R2;
     } else {
         (void)pace_of(w, footfall, pace);
     }

@@ -684,7 +684,7 @@ if grep -q '^  simulate ' out; then
 
     refuses 2 'insole reproduce: expected the name of one paper' reproduce
     refuses 2 'insole reproduce: expected the name of one paper' reproduce TwoOrder PhoneEKF
-    refuses 2 'insole reproduce: unknown paper Twoorder: expected TwoOrder, PhoneEKF, WifiShift' \
+    refuses 2 'insole reproduce: unknown paper Twoorder: expected TwoOrder, PhoneEKF, PhoneUKF, WifiShift' \
         reproduce Twoorder
     refuses 2 'insole reproduce: --runs 0: expected a whole number from 1 to 1000' \
         reproduce TwoOrder --runs 0
@@ -707,6 +707,8 @@ if grep -q '^  simulate ' out; then
     status_is 0; empty err
     has out '"label": "proposed EKF"'
     has out '"std_m": '
+    refuses 2 'insole reproduce: TwoOrder has nothing to --search' reproduce TwoOrder --search
+    refuses 2 'insole reproduce: WifiShift has nothing to --search' reproduce WifiShift --search
 fi
 
 [ "$failures" -eq 0 ] && echo 'cli: fine'

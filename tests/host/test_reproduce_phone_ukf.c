@@ -207,7 +207,7 @@ START_TEST(the_search_finds_the_best_of_all_combinations)
         rows[i].axis_count = 0;
         rows[i].settings = settings[i];
     }
-    ck_assert_str_eq(settings[3], "step_fusion.sigma_fix_m=2.000 step_fusion.sigma_way_m=0.800");
+    ck_assert_str_eq(settings[3], "step_fusion.sigma_fix_m=2 step_fusion.sigma_way_m=0.8");
     paper.claim_count = paper.drawing_count = 0;
     paper.rows = rows;
     paper.row_count = ALL;

@@ -107,6 +107,52 @@ START_TEST(direct_sums)
 }
 END_TEST
 
+/* The covariance times the mean square difference to the best point, in widths of the kernel;
+ * place, weight and the other kernel know nothing of it. */
+START_TEST(a_scan_that_fits_badly_says_so)
+{
+    begin(_i);
+    for (int round = 0; round < 20; round++) {
+        insole_radio_fix_t fix, doubted;
+        double noise_db = 0.5 + round;
+        uint32_t count = prints_listen(&rng, APS, prints_uniform(&rng, 0.0, 40.0),
+                                       prints_uniform(&rng, 0.0, 40.0), noise_db, 0.0, readings);
+        kde.config.misfit = INSOLE_KDE_FIX_MISFIT_PASSED_OVER;
+        ck_assert_int_eq(solve(NULL, count, &fix), INSOLE_OK);
+        kde.config.misfit = INSOLE_KDE_FIX_MISFIT_TOLD;
+        ck_assert_int_eq(solve(NULL, count, &doubted), INSOLE_OK);
+        double times = -2.0 * log_of(fix.likeliest, count, 0.0) / (double)count;
+        times = _i == INSOLE_KDE_FIX_GAUSS ? fmin(fmax(times, 0.1), 100.0) : 1.0;
+        ASSERT_NEAR(doubted.var_x_m2, times * (double)fix.var_x_m2, 1e-4 * (double)doubted.var_x_m2,
+                    "m2");
+        ASSERT_NEAR(doubted.cov_xy_m2, times * (double)fix.cov_xy_m2,
+                    1e-4 * (double)doubted.var_x_m2, "m2");
+        ASSERT_NEAR(doubted.var_y_m2, times * (double)fix.var_y_m2, 1e-4 * (double)doubted.var_y_m2,
+                    "m2");
+        ck_assert_mem_eq(&doubted.spot, &fix.spot, sizeof fix.spot);
+        ASSERT_NEAR(doubted.log_weight, fix.log_weight, 0.0, "");
+    }
+}
+END_TEST
+
+/* A scan as it stands in the map fits better than any noise would, one that is off by all means
+ * not at all: what is told has ends. */
+START_TEST(misfits_have_ends)
+{
+    for (int far = 0; far < 2; far++) {
+        insole_radio_fix_t fix, doubted;
+        begin(INSOLE_KDE_FIX_GAUSS);
+        kde.config.sigma_db = far ? INSOLE_R(0.5) : INSOLE_R(1000.0);
+        uint32_t count = prints_listen(&rng, APS, 20.0, 20.0, 8.0, 0.0, readings);
+        ck_assert_int_eq(solve(NULL, count, &fix), INSOLE_OK);
+        kde.config.misfit = INSOLE_KDE_FIX_MISFIT_TOLD;
+        ck_assert_int_eq(solve(NULL, count, &doubted), INSOLE_OK);
+        ASSERT_NEAR(doubted.var_x_m2, (far ? 100.0 : 0.1) * (double)fix.var_x_m2,
+                    1e-4 * (double)doubted.var_x_m2, "m2");
+    }
+}
+END_TEST
+
 /* Duplicated ids, strangers and hopeless readings change nothing. */
 START_TEST(clutter_changes_nothing)
 {
@@ -409,6 +455,8 @@ Suite *insole_suite(void)
 {
     Suite *suite = suite_create("kde_fix");
     suite_add_loop(suite, "direct sums", direct_sums, 2);
+    suite_add_loop(suite, "misfit", a_scan_that_fits_badly_says_so, 2);
+    suite_add(suite, "ends of misfit", misfits_have_ends);
     suite_add_loop(suite, "clutter", clutter_changes_nothing, 2);
     suite_add_loop(suite, "slices", slices_give_the_same_bits, 5);
     suite_add(suite, "saved and restored", saved_and_restored);

@@ -332,17 +332,20 @@ END_TEST
 
 START_TEST(by_the_step_it_has_the_direction_that_the_gait_told)
 {
-    uint32_t apart = 0u;
+    uint32_t apart = 0u, uncertain = 0u;
     set_up_stroll(1);
     config.gait = 1;
     begin_stroll(false);
     stroll_on(20.0);
     ck_assert_uint_ge(step_count, 30u);
     for (uint32_t i = 0u; i < step_count; i++) {
+        insole_real_t known = walked[i].variance_rad2, unknown = INSOLE_HEADING_MOST_R2;
         apart += paces[i].heading_rad != walked[i].direction_rad;
-        apart += paces[i].var_heading_rad2 != walked[i].variance_rad2;
+        apart += paces[i].var_heading_rad2 != (walked[i].is_certain ? known : unknown);
+        uncertain += walked[i].is_certain ? 0u : 1u;
     }
     ck_assert_uint_eq(apart, 0u);
+    ck_assert(uncertain >= 1u && uncertain <= 5u); /* the first ones */
     expect_off(0u, step_count, 0.0, 0.2);
 }
 END_TEST

@@ -153,10 +153,10 @@ static bool begin_more(reproduction_t *reproduction, failure_t *failure)
     return more->begin == NULL || more->begin(reproduction, failure);
 }
 
-static bool measure_more(reproduction_t *reproduction, int walk, failure_t *failure)
+static bool measure_more(reproduction_t *reproduction, failure_t *failure)
 {
     const reproduce_more_t *more = reproduction->paper->more;
-    return more == NULL || more->walk == NULL || more->walk(reproduction, walk, failure);
+    return more == NULL || more->walk == NULL || more->walk(reproduction, failure);
 }
 
 static bool measure_walk(reproduction_t *reproduction, int walk, progress_t *progress,
@@ -169,7 +169,7 @@ static bool measure_walk(reproduction_t *reproduction, int walk, progress_t *pro
         progress_step(progress, (unsigned long long)(walk * rows + row + 1),
                       (unsigned long long)(reproduction->request.runs * rows));
     }
-    is_good = is_good && measure_more(reproduction, walk, failure) &&
+    is_good = is_good && measure_more(reproduction, failure) &&
               (walk > 0 || draw_all(reproduction, true, failure));
     reproduce_close_walk(reproduction);
     return is_good;

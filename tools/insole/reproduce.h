@@ -20,7 +20,7 @@
 #include "json.h"
 #include "replay.h"
 
-enum { REPRODUCE_ROWS = 16, REPRODUCE_RUNS_MAX = 1000, REPRODUCE_AXES = 4 };
+enum { REPRODUCE_ROWS = 16, REPRODUCE_RUNS_MAX = 1000, REPRODUCE_AXES = 5 };
 
 /** What is told of the errors of a walk; each paper prints some of them. */
 typedef enum {
@@ -108,7 +108,7 @@ typedef struct {
 typedef struct {
     size_t size; /**< of reproduction_t.more, which is all zeros before `begin` */
     bool (*begin)(reproduction_t *reproduction, failure_t *failure);
-    bool (*walk)(reproduction_t *reproduction, int walk, failure_t *failure);
+    bool (*walk)(reproduction_t *reproduction, failure_t *failure); /**< the present one */
     bool (*draw_walk)(const reproduction_t *reproduction, failure_t *failure); /**< the first */
     bool (*draw)(const reproduction_t *reproduction, failure_t *failure);      /**< all */
     void (*print)(const reproduction_t *reproduction, FILE *file);

@@ -15,6 +15,8 @@
 enum { LEARNT = 6 };
 static const uint64_t first_learnt = UINT64_C(1) << 41;
 
+static const char *const positions[REPRODUCE_POSITIONS] = {"hand", "ear", "swing", "pocket"};
+
 /* Other people than the one who walks the paper's way. */
 #define PEOPLE                                                                                     \
     " person.leg_spread=0.05 person.step_spread=0.08 person.bounce_spread=0.15 "                   \
@@ -80,19 +82,31 @@ bool reproduce_carry_begin(reproduce_carry_t *carry, const reproduction_t *repro
     return is_good && grow(carry, failure);
 }
 
+/* Number of a position; a class that is none of them counts as the first. */
+static int position_of(const char *name)
+{
+    int position = REPRODUCE_POSITIONS - 1;
+    while (position > 0 && strcmp(positions[position], name) != 0) {
+        position--;
+    }
+    return position;
+}
+
 bool reproduce_carry_walk(reproduce_carry_t *carry, const reproduction_t *reproduction,
                           failure_t *failure)
 {
+    const insole_carry_forest_t *forest = &carry->grown.forest;
     const carry_windows_t *windows = &carry->windows;
     size_t first = windows->row_count;
+    int position = position_of(reproduction->kind->name);
     insole_carry_votes_t votes;
     if (!add_log(carry, reproduction, reproduction->kind->name, false, failure)) {
         return false;
     }
     for (size_t i = first; i < windows->row_count; i++) {
-        const carry_row_t *row = &windows->rows[i];
-        if (insole_carry_forest_vote(&carry->grown.forest, &row->features, &votes) == INSOLE_OK) {
-            carry->confusion.count[windows->logs[row->log].class_number][votes.winner]++;
+        if (insole_carry_forest_vote(forest, &windows->rows[i].features, &votes) == INSOLE_OK) {
+            int answer = position_of(forest->names[votes.winner]);
+            carry->confusion.count[position][answer]++;
         }
     }
     return true;
@@ -100,26 +114,25 @@ bool reproduce_carry_walk(reproduce_carry_t *carry, const reproduction_t *reprod
 
 /* ---- out -------------------------------------------------------------------------------- */
 
-static double share_of(const confusion_t *confusion, uint32_t position, uint32_t answer)
+static double share_of(const confusion_t *confusion, int position, int answer)
 {
     unsigned long all = 0u;
-    for (uint32_t i = 0u; i < INSOLE_CARRY_CLASSES; i++) {
+    for (int i = 0; i < REPRODUCE_POSITIONS; i++) {
         all += confusion->count[position][i];
     }
     return all > 0u ? (double)confusion->count[position][answer] / (double)all : NUMBER_UNKNOWN;
 }
 
 static void print_row(const reproduce_carry_t *carry, const reproduce_carry_printed_t printed,
-                      uint32_t row, FILE *file)
+                      int row, FILE *file)
 {
-    const id_table_t *names = &carry->windows.classes.names;
     char number[NUMBER_ROOM];
-    fprintf(file, "%-22s", names->names[row]);
-    for (uint32_t i = 0u; i < names->count; i++) {
+    fprintf(file, "%-22s", positions[row]);
+    for (int i = 0; i < REPRODUCE_POSITIONS; i++) {
         fprintf(file, " %6s", number_fixed(number, share_of(&carry->confusion, row, i), 3));
     }
     fputs("  ", file);
-    for (uint32_t i = 0u; i < names->count; i++) {
+    for (int i = 0; i < REPRODUCE_POSITIONS; i++) {
         fprintf(file, " %6s", number_fixed(number, printed[row][i], 3));
     }
     fputc('\n', file);
@@ -128,19 +141,18 @@ static void print_row(const reproduce_carry_t *carry, const reproduce_carry_prin
 void reproduce_carry_print(const reproduce_carry_t *carry, const reproduce_carry_printed_t printed,
                            FILE *file)
 {
-    const id_table_t *names = &carry->windows.classes.names;
     char number[NUMBER_ROOM];
     fprintf(file,
             "table 1: share of the %lu windows of 2 s that are taken for each position, by the\n"
             "features free of orientation; measured and printed\n%-22s",
             confusion_total(&carry->confusion), "");
     for (int twice = 0; twice < 2; twice++) {
-        for (uint32_t i = 0u; i < names->count; i++) {
-            fprintf(file, " %6s", names->names[i]);
+        for (int i = 0; i < REPRODUCE_POSITIONS; i++) {
+            fprintf(file, " %6s", positions[i]);
         }
         fputs(twice == 0 ? "  " : "\n", file);
     }
-    for (uint32_t row = 0u; row < names->count; row++) {
+    for (int row = 0; row < REPRODUCE_POSITIONS; row++) {
         print_row(carry, printed, row, file);
     }
     fprintf(file, "right: %s %%; the paper: 98.5 %%\n",
@@ -149,14 +161,13 @@ void reproduce_carry_print(const reproduce_carry_t *carry, const reproduce_carry
 
 void reproduce_carry_json(const reproduce_carry_t *carry, json_t *json)
 {
-    const id_table_t *names = &carry->windows.classes.names;
     json_object(json, "carry");
     json_whole(json, "windows", (long long)confusion_total(&carry->confusion));
     json_number(json, "right", confusion_accuracy(&carry->confusion), 4);
-    for (uint32_t row = 0u; row < names->count; row++) {
-        json_object(json, names->names[row]);
-        for (uint32_t i = 0u; i < names->count; i++) {
-            json_number(json, names->names[i], share_of(&carry->confusion, row, i), 4);
+    for (int row = 0; row < REPRODUCE_POSITIONS; row++) {
+        json_object(json, positions[row]);
+        for (int i = 0; i < REPRODUCE_POSITIONS; i++) {
+            json_number(json, positions[i], share_of(&carry->confusion, row, i), 4);
         }
         json_end(json);
     }

@@ -12,14 +12,17 @@
 #include "forest_grow.h"
 #include "reproduce.h"
 
+/** Of the paper's table, in its order: hand, ear, swing, pocket. */
+enum { REPRODUCE_POSITIONS = 4 };
+
 /** Share of the windows of a position (row) that are taken for each (column). */
-typedef double reproduce_carry_printed_t[INSOLE_CARRY_CLASSES][INSOLE_CARRY_CLASSES];
+typedef double reproduce_carry_printed_t[REPRODUCE_POSITIONS][REPRODUCE_POSITIONS];
 
 typedef struct {
-    carry_windows_t windows; /**< that the forest grew on; its classes are the positions */
+    carry_windows_t windows; /**< that the forest grew on, and those it judged */
     grown_t grown;
     bool is_grown;
-    confusion_t confusion;
+    confusion_t confusion; /**< position, answer */
 } reproduce_carry_t;
 
 /** Grows the forest: the paper's kinds of walks are the positions. */

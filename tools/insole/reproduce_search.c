@@ -61,7 +61,7 @@ char *reproduce_search_settings(const reproduce_row_t *row, int combination)
         const reproduce_axis_t *axis = &row->axes[i];
         size_t used = strlen(text);
         snprintf(text + used, ROOM - used, "%s%s=%s", i > 0 ? " " : "", axis->key,
-                 number_fixed(number, axis->values[value_of(row, combination, i)], 3));
+                 number_short(number, axis->values[value_of(row, combination, i)]));
     }
     return text;
 }
@@ -87,7 +87,7 @@ static bool try_settings(const reproduction_t *reproduction, const reproduce_row
     return is_good;
 }
 
-/* What is tried comes after what the row has, and so before it. */
+/* What is tried stands behind what the row has: of a key set twice the last counts. */
 static bool try_combination(reproduce_search_t *search, int row, int combination,
                             failure_t *failure)
 {
@@ -163,7 +163,7 @@ static void print_axis(FILE *file, const reproduce_axis_t *axis, int best)
     fprintf(file, "  %s:", axis->key);
     for (int i = 0; i < axis->count; i++) {
         char number[NUMBER_ROOM];
-        fprintf(file, i == best ? " [%s]" : " %s", number_fixed(number, axis->values[i], 3));
+        fprintf(file, i == best ? " [%s]" : " %s", number_short(number, axis->values[i]));
     }
     fputc('\n', file);
 }

@@ -49,10 +49,10 @@ static const reproduce_figure_t columns[] = {REPRODUCE_MAX, REPRODUCE_MIN, REPRO
 static const reproduce_row_t rows[ROWS] = {
     [INS] = {"INS+EKF", METHOD_INS, .printed = PRINTED(7.21, 0.02, 2.86, 3.88)},
     [PDR] = {"PDR-only", METHOD_PDR, .printed = PRINTED(11.59, 0.02, 3.04, 5.73)},
-    [WIFI] = {"Wi-Fi only", METHOD_WIFI},
+    [WIFI] = {.label = "Wi-Fi only", .method = METHOD_WIFI},
     [TWO_ORDER] = {"two-order", METHOD_TWO_ORDER, .start = REPRODUCE_START_BY_RADIO,
                    .printed = PRINTED(4.83, 0.01, 1.85, 2.19)},
-    [TWO_ORDER_TOLD] = {"two-order, true start", METHOD_TWO_ORDER},
+    [TWO_ORDER_TOLD] = {.label = "two-order, true start", .method = METHOD_TWO_ORDER},
     [OUR_INS] = {"ins", METHOD_INS, .is_ours = true},
     [OUR_BEST] = {"best", METHOD_BEST, .is_ours = true}};
 

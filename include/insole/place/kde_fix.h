@@ -15,6 +15,11 @@
  *  that the strong ones count, against each other by the share they have in common: what is heard
  *  on one side only is a difference, and crowds of weak access points cannot drown the near ones.
  *
+ *  People who stand between, a hand on the antenna: a scan that was disturbed often fits one
+ *  fingerprint far better than the others and none well, so that its covariance is small and wrong.
+ *  `misfit = told` multiplies it by the mean square difference to the best fingerprint over that of
+ *  the kernel, between 0.1 and 100: the noise that a scan shows counts, not the one expected.
+ *
  *  A phone that reads all too strong or too weak: `offset = learn` finds its offset from the scans
  *  themselves, from one to the next, and takes it off.
  *
@@ -41,6 +46,8 @@ extern "C" {
     KEY(REAL, unheard_dbm, -95.0, -127.0, -50.0, "dBm", "gauss: what unheard counts as")          \
     KEY(REAL, point_sigma_m, 3.0, 0.1, 100.0, "m", "1-sigma of the place of each fingerprint")    \
     KEY(REAL, widen, 2.0, 0.1, 100.0, "", "factor on the variance of the fingerprints' places")   \
+    KEY(CHOICE, misfit, 0, 0, 1, "passed-over|told",                                              \
+        "gauss: how badly a scan fits its best fingerprint is part of its covariance, or not")    \
     KEY(CHOICE, offset, 0, 0, 1, "none|learn", "what this phone reads too strong")                \
     KEY(REAL, offset_max_db, 15.0, 0.1, 60.0, "dB", "largest offset learned")                     \
     KEY(REAL, learn_weight, 0.05, 0.001, 1.0, "", "least weight of a new scan in the offset")     \
@@ -55,6 +62,7 @@ typedef struct {
 extern const insole_kde_fix_config_t insole_kde_fix_defaults;
 
 enum { INSOLE_KDE_FIX_SORENSEN = 0, INSOLE_KDE_FIX_GAUSS = 1 };
+enum { INSOLE_KDE_FIX_MISFIT_PASSED_OVER = 0, INSOLE_KDE_FIX_MISFIT_TOLD = 1 };
 
 typedef struct {
     insole_kde_fix_config_t config;

@@ -7,9 +7,11 @@
  *  where (walk_heading.h), step by step, or, the default, as a mean: the angle between where the
  *  phone points and where the gait goes stays the same while the phone is carried in the same way,
  *  so its mean over the last steps is far better than each, and turns are those of the phone. When
- *  the position changes, or the phone is tipped over, the mean begins anew. Which position it is,
- *  carry.h tells, if it is there and the setting `faces` asks it; until it knows, the phone points
- *  ahead. Lengths of steps and what is taken for one follow the position then, too.
+ *  the position changes, or the phone is tipped over, the mean begins anew. Step by step, the
+ *  direction of one whose end is not certain counts as unknown: it may be the opposite one. Which
+ *  position it is, carry.h tells, if it is there and the setting `faces` asks it; until it knows,
+ *  the phone points ahead. Lengths of steps and what is taken for one follow the position then,
+ *  too.
  *
  *      insole_phone_walk_init(&walk, &insole_phone_walk_defaults, &gait);
  *      on each sample, after the attitude:
