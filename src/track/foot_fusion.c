@@ -279,10 +279,13 @@ static bool is_good(const insole_foot_fusion_t *f, insole_real_t var_m2)
 }
 
 /* Whoever has lost the way is believed after some strides through which the cloud was good. */
-static void end_work(insole_foot_fusion_t *f)
+static void follow_work(insole_foot_fusion_t *f)
 {
     const insole_cloud_fix_t *cloud = &f->particles.fix;
-    if (f->doubt > 0u && f->news.has_stride) {
+    if (insole_particle_filter_has_settled(&f->particles)) {
+        insole_fusion_strides_done(&f->strides);
+    }
+    if (!f->working && f->doubt > 0u && f->news.has_stride) {
         f->doubt = is_good(f, cloud->var_x_m2 + cloud->var_y_m2) ? f->doubt - 1u : DOUBT_STRIDES;
     }
 }
@@ -295,12 +298,7 @@ bool insole_foot_fusion_work(insole_foot_fusion_t *fusion, uint32_t particles)
     insole_cloud_t cloud = insole_fusion_cloud(&fusion->memory);
     fusion->working =
         insole_particle_filter_work(&fusion->particles, &cloud, fusion->building, particles);
-    if (insole_particle_filter_has_settled(&fusion->particles)) {
-        insole_fusion_strides_done(&fusion->strides);
-    }
-    if (!fusion->working) {
-        end_work(fusion);
-    }
+    follow_work(fusion);
     return fusion->working;
 }
 
