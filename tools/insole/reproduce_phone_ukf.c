@@ -67,10 +67,10 @@ static const reproduce_axis_t ukf_axes[] = {AXIS("phone_tracker.trust_sigmas", s
                                             AXIS("kde_fix.widen", widens)};
 
 /* A rival has its own radius of (37) too: the covariance that it comes from is its own. */
-static const double rival_sigmas[] = {1.0, 2.0, 3.0}, rival_leasts_m[] = {1.5, 2.0};
-static const double fixes_m[] = {0.1, 0.25, 0.4, 0.7, 1.2};
-static const double ways_m[] = {0.05, 0.1, 0.2, 0.3, 0.45, 0.7};
-static const double lengths_m[] = {0.03, 0.1}, headings_rad[] = {0.1, 0.2, 0.3, 0.5};
+static const double rival_sigmas[] = {2.0, 3.0, 4.0}, rival_leasts_m[] = {1.5, 2.0};
+static const double fixes_m[] = {0.25, 0.4, 0.7, 1.2};
+static const double ways_m[] = {0.05, 0.1, 0.2, 0.4};
+static const double lengths_m[] = {0.03, 0.1}, headings_rad[] = {0.2, 0.3, 0.5};
 
 #define RIVAL                                                                                      \
     AXIS("phone_tracker.trust_sigmas", rival_sigmas),                                              \
@@ -82,10 +82,9 @@ static const reproduce_axis_t const_axes[] = {RIVAL, AXIS("step_fusion.sigma_len
                                               AXIS("step_fusion.sigma_heading_rad", headings_rad)};
 
 /* Without an area the kernels are others. */
-static const double kernels_db[] = {2.5, 3.5, 5.0, 8.0};
-static const double far_widens[] = {2.0, 4.0, 8.0, 16.0};
-static const double far_fixes_m[] = {3.0, 5.0, 8.0, 12.0},
-                    far_headings_rad[] = {0.2, 0.3, 0.5, 0.8};
+static const double kernels_db[] = {3.5, 5.0, 8.0};
+static const double far_widens[] = {4.0, 8.0, 16.0};
+static const double far_fixes_m[] = {5.0, 8.0, 12.0}, far_headings_rad[] = {0.3, 0.5, 0.8};
 static const reproduce_axis_t wifi_axes[] = {AXIS("kde_fix.sigma_db", kernels_db)};
 static const reproduce_axis_t whole_axes[] = {AXIS("kde_fix.sigma_db", kernels_db),
                                               AXIS("kde_fix.widen", far_widens)};
