@@ -6,33 +6,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "memory.h"
+#include "insole/sense/carry_table.h"
 #include "number.h"
 #include "platform.h"
-#include "reproduce_walk.h"
-
-/* Walks per position that the forest grows on, and their seeds: no walk that is judged has them. */
-enum { LEARNT = 6 };
-static const uint64_t first_learnt = UINT64_C(1) << 41;
 
 static const char *const positions[REPRODUCE_POSITIONS] = {"hand", "ear", "swing", "pocket"};
 
-/* Other people than the one who walks the paper's way. */
-#define PEOPLE                                                                                     \
-    " person.leg_spread=0.05 person.step_spread=0.08 person.bounce_spread=0.15 "                   \
-    "phone.rock_spread=0.3"
-
 /* The windows of a log that lies in the walk's folder. */
 static bool add_log(reproduce_carry_t *carry, const reproduction_t *reproduction,
-                    const char *position, bool is_varied, failure_t *failure)
+                    const char *position, failure_t *failure)
 {
     carry_index_t index;
     char *path = platform_join(reproduction->folder, "carry.csv");
     FILE *file = fopen(path, "w");
     bool is_good = file != NULL;
     if (is_good) {
-        fprintf(file, "file,person,position\nlog.csv,%s,%s\n", is_varied ? "many" : "one",
-                position);
+        fprintf(file, "file,person,position\nlog.csv,walker,%s\n", position);
         is_good = fclose(file) == 0;
     }
     if (!is_good) {
@@ -40,46 +29,16 @@ static bool add_log(reproduce_carry_t *carry, const reproduction_t *reproduction
     }
     is_good = is_good && carry_index_read(&index, path, failure);
     if (is_good) {
-        is_good = carry_windows_add(&carry->windows, &index, is_varied, NULL, failure);
+        is_good = carry_windows_add(&carry->windows, &index, false, NULL, failure);
         carry_index_free(&index);
     }
     free(path);
     return is_good;
 }
 
-static bool learn_walk(reproduce_carry_t *carry, const reproduction_t *reproduction,
-                       const reproduce_kind_t *kind, uint64_t seed, failure_t *failure)
+bool reproduce_carry_begin(reproduce_carry_t *carry, failure_t *failure)
 {
-    char set[400];
-    snprintf(set, sizeof set, "%s%s", kind->scenario, PEOPLE);
-    return reproduce_simulate(reproduction->request.maps, reproduction->paper->scenario,
-                              reproduction->folder, seed, set, failure) &&
-           add_log(carry, reproduction, kind->name, true, failure);
-}
-
-static bool grow(reproduce_carry_t *carry, failure_t *failure)
-{
-    bool *is_used = memory_new(carry->windows.log_count, sizeof *is_used);
-    for (size_t i = 0u; i < carry->windows.log_count; i++) {
-        is_used[i] = true;
-    }
-    carry->is_grown =
-        forest_grow(&carry->grown, &carry->windows, is_used, &forest_defaults, NULL, failure);
-    free(is_used);
-    return carry->is_grown;
-}
-
-bool reproduce_carry_begin(reproduce_carry_t *carry, const reproduction_t *reproduction,
-                           failure_t *failure)
-{
-    const reproduce_paper_t *paper = reproduction->paper;
-    bool is_good = carry_windows_init(&carry->windows, NULL, failure);
-    for (int i = 0; is_good && i < LEARNT * paper->kind_count; i++) {
-        uint64_t seed = first_learnt + (uint64_t)i;
-        is_good =
-            learn_walk(carry, reproduction, &paper->kinds[i % paper->kind_count], seed, failure);
-    }
-    return is_good && grow(carry, failure);
+    return carry_windows_init(&carry->windows, NULL, failure);
 }
 
 /* Number of a position; a class that is none of them counts as the first. */
@@ -95,12 +54,12 @@ static int position_of(const char *name)
 bool reproduce_carry_walk(reproduce_carry_t *carry, const reproduction_t *reproduction,
                           failure_t *failure)
 {
-    const insole_carry_forest_t *forest = &carry->grown.forest;
+    const insole_carry_forest_t *forest = &insole_carry_table_forest;
     const carry_windows_t *windows = &carry->windows;
     size_t first = windows->row_count;
     int position = position_of(reproduction->kind->name);
     insole_carry_votes_t votes;
-    if (!add_log(carry, reproduction, reproduction->kind->name, false, failure)) {
+    if (!add_log(carry, reproduction, reproduction->kind->name, failure)) {
         return false;
     }
     for (size_t i = first; i < windows->row_count; i++) {
@@ -176,9 +135,6 @@ void reproduce_carry_json(const reproduce_carry_t *carry, json_t *json)
 
 void reproduce_carry_free(reproduce_carry_t *carry)
 {
-    if (carry->is_grown) {
-        forest_free(&carry->grown);
-    }
     carry_windows_free(&carry->windows);
 }
 

@@ -1,15 +1,14 @@
 /** @file reproduce_carry.h  How well the carrying position is told: table 1 of [PhoneUKF].
  *
- *  A forest is grown on walks of other people with other mountings and judges the windows of the
- *  present walks while they are walked.
+ *  The forest that comes with the library judges the windows of the walks.
  *
  *  SPDX-License-Identifier: MIT
  */
 #ifndef INSOLE_HOST_REPRODUCE_CARRY_H
 #define INSOLE_HOST_REPRODUCE_CARRY_H
 
+#include "carry_windows.h"
 #include "confusion.h"
-#include "forest_grow.h"
 #include "reproduce.h"
 
 /** Of the paper's table, in its order: hand, ear, swing, pocket. */
@@ -19,17 +18,13 @@ enum { REPRODUCE_POSITIONS = 4 };
 typedef double reproduce_carry_printed_t[REPRODUCE_POSITIONS][REPRODUCE_POSITIONS];
 
 typedef struct {
-    carry_windows_t windows; /**< that the forest grew on, and those it judged */
-    grown_t grown;
-    bool is_grown;
-    confusion_t confusion; /**< position, answer */
+    carry_windows_t windows; /**< of all walks */
+    confusion_t confusion;   /**< position, answer */
 } reproduce_carry_t;
 
-/** Grows the forest: the paper's kinds of walks are the positions. */
-bool reproduce_carry_begin(reproduce_carry_t *carry, const reproduction_t *reproduction,
-                           failure_t *failure);
+bool reproduce_carry_begin(reproduce_carry_t *carry, failure_t *failure);
 
-/** Judges the present walk. */
+/** Judges the present walk: its kind is the position. */
 bool reproduce_carry_walk(reproduce_carry_t *carry, const reproduction_t *reproduction,
                           failure_t *failure);
 
