@@ -247,10 +247,13 @@ static const insole_carry_node_t insole_carry_table_nodes[707] = {
     {INSOLE_R(8.0), 4, 243, 242}, {INSOLE_R(6.2), 4, 243, 242},
 };
 
-static const uint16_t insole_carry_table_roots[31] = {0, 23, 43, 61, 84, 113, 138, 158, 179, 208, 233, 254, 273, 293,
-    315, 340, 368, 392, 412, 430, 457, 482, 508, 533, 560, 591, 612, 633,
-    664, 689, 707};
+static const uint16_t insole_carry_table_roots[31] = {
+    0, 23, 43, 61, 84, 113, 138, 158, 179, 208, 233, 254, 273, 293, 315, 340, 368, 392, 412, 430,
+    457, 482, 508, 533, 560, 591, 612, 633, 664, 689, 707,
+};
 
 static const char *const insole_carry_table_names[4] = {"hand", "ear", "swing", "pocket"};
 
-const insole_carry_forest_t insole_carry_table_forest = {insole_carry_table_nodes, insole_carry_table_roots, insole_carry_table_names, 30, 4};
+const insole_carry_forest_t insole_carry_table_forest = {
+    insole_carry_table_nodes, insole_carry_table_roots,
+    insole_carry_table_names, 30, 4};

@@ -184,20 +184,15 @@ static insole_real_t median(const insole_real_t *a, const insole_real_t *b)
     return INSOLE_R(0.5) * (before + value);
 }
 
-static insole_real_t mean(const insole_real_t *a, const insole_real_t *b)
-{
-    insole_real_t sum = ZERO;
-    for (uint32_t i = 0u; i < INSOLE_CARRY_HALF; i++) {
-        sum += a[i] + b[i];
-    }
-    return sum / (insole_real_t)WINDOW;
-}
-
 static void describe(const insole_real_t *a, const insole_real_t *b, insole_real_t *statistics,
                      insole_real_t *skewness)
 {
     enum { LAST = INSOLE_CARRY_HALF - 1 };
-    insole_real_t middle = mean(a, b), squares = ZERO, cubes = ZERO;
+    insole_real_t middle = ZERO, squares = ZERO, cubes = ZERO;
+    for (uint32_t i = 0u; i < INSOLE_CARRY_HALF; i++) {
+        middle += a[i] + b[i];
+    }
+    middle /= (insole_real_t)WINDOW;
     for (uint32_t i = 0u; i < INSOLE_CARRY_HALF; i++) {
         insole_real_t p = a[i] - middle, q = b[i] - middle;
         squares += p * p + q * q;

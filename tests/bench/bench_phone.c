@@ -116,32 +116,15 @@ static void call_insole_walk_heading_step(uint32_t call)
     bench_take_vec3(0u, insole_vec3(walked.direction_rad, walked.variance_rad2, walked.evidence));
 }
 
-/* A carrying position: a forest of 40 trees as deep as they get, and full. */
-
-enum { TREES = 40, TREE_NODES = 127 };
+/* A carrying position, by the forest of the library. */
 
 static insole_carry_t carry;
 static insole_carry_features_t features;
 static insole_carry_votes_t votes;
-static insole_carry_node_t nodes[TREES * TREE_NODES];
-static uint16_t roots[TREES + 1];
-static const char *const positions[] = {"hand", "ear", "swing", "pocket"};
-static const insole_carry_forest_t forest = {nodes, roots, positions, TREES, 4u};
+static const insole_carry_forest_t *const forest = &insole_carry_table_forest;
 
-/* Node i of a heap leads to nodes 2 i + 1 and 2 i + 2. */
 static void begin_carry(void)
 {
-    for (uint32_t i = 0u; i < TREES * TREE_NODES; i++) {
-        uint32_t below = 2u * (i % TREE_NODES) + 1u;
-        bool is_last = below >= TREE_NODES;
-        nodes[i].feature = (uint8_t)(insole_rng_bits(&bench_rng) % INSOLE_CARRY_FEATURES);
-        nodes[i].threshold = bench_between(INSOLE_R(0.0), INSOLE_R(12.0));
-        nodes[i].at_most = is_last ? INSOLE_CARRY_LEAF(i % 4u) : (uint8_t)below;
-        nodes[i].above = is_last ? INSOLE_CARRY_LEAF((i + 1u) % 4u) : (uint8_t)(below + 1u);
-    }
-    for (uint32_t tree = 0u; tree <= TREES; tree++) {
-        roots[tree] = (uint16_t)(tree * TREE_NODES);
-    }
     insole_carry_init(&carry, &insole_carry_defaults);
 }
 
@@ -164,7 +147,7 @@ static void call_insole_carry_next(uint32_t call)
 {
     insole_carry_news_t news;
     (void)call;
-    insole_carry_next(&carry, &forest, &news);
+    insole_carry_next(&carry, forest, &news);
     for (uint32_t k = 0u; k < 4u; k++) {
         bench_result[k] = news.votes.share[k];
     }
@@ -179,7 +162,7 @@ static void make_features(uint32_t call)
 static void call_insole_carry_forest_vote(uint32_t call)
 {
     (void)call;
-    insole_carry_forest_vote(&forest, &features, &votes);
+    insole_carry_forest_vote(forest, &features, &votes);
     for (uint32_t k = 0u; k < 4u; k++) {
         bench_result[k] = votes.share[k];
     }

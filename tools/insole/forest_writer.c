@@ -34,16 +34,15 @@ static void write_nodes(FILE *file, const grown_t *grown, const char *name)
 
 static void write_roots(FILE *file, const grown_t *grown, const char *name)
 {
-    fprintf(file, "static const uint16_t %s_roots[%u] = {", name,
+    char item[20];
+    int column = 0;
+    fprintf(file, "static const uint16_t %s_roots[%u] = {\n", name,
             (unsigned)grown->forest.tree_count + 1u);
     for (unsigned tree = 0u; tree <= grown->forest.tree_count; tree++) {
-        fprintf(file, "%s%u",
-                tree == 0u         ? ""
-                : tree % 14u == 0u ? ",\n    "
-                                   : ", ",
-                (unsigned)grown->roots[tree]);
+        snprintf(item, sizeof item, "%u,", (unsigned)grown->roots[tree]);
+        write_item(file, &column, item);
     }
-    fputs("};\n\n", file);
+    fputs("\n};\n\n", file);
 }
 
 static void write_names(FILE *file, const insole_carry_forest_t *forest, const char *name)
@@ -67,7 +66,8 @@ void forest_write(FILE *file, const grown_t *grown, const char *name, const char
     write_roots(file, grown, name);
     write_names(file, &grown->forest, name);
     fprintf(file,
-            "const insole_carry_forest_t %s_forest = {%s_nodes, %s_roots, %s_names, %u, %u};\n",
+            "const insole_carry_forest_t %s_forest = {\n    %s_nodes, %s_roots,\n    %s_names, %u, "
+            "%u};\n",
             name, name, name, name, (unsigned)grown->forest.tree_count,
             (unsigned)grown->forest.class_count);
 }
