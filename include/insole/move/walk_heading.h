@@ -80,14 +80,14 @@ typedef enum {
         "phase of a step by which the forward acceleration leads the vertical one")               \
     KEY(REAL, least_mps2, 0.15, 0.01, 10.0, "m/s^2",                                              \
         "a level acceleration of smaller rms along its axis has no direction")                    \
-    KEY(REAL, sigma_tilt_rad, 0.015, 0.0, 1.0, "rad",                                             \
+    KEY(REAL, sigma_tilt_rad, 0.01, 0.0, 1.0, "rad",                                              \
         "1-sigma of a tilt that the attitude does not know, or that the mean force leaves")       \
     KEY(REAL, sigma_rad, 0.02, 0.0, 3.0, "rad", "1-sigma of the best direction of a step")        \
     KEY(REAL, scatter_share, 0.02, 0.0, 100.0, "",                                                \
         "variance by motion across the axis, over its share; 0 = off")                            \
     KEY(REAL, wander_share, 0.45, 0.0, 100.0, "",                                                 \
         "variance over that between the axes of one foot's steps; 0 = off")                       \
-    KEY(REAL, turn_share, 0.25, 0.0, 10.0, "",                                                    \
+    KEY(REAL, turn_share, 0.2, 0.0, 10.0, "",                                                     \
         "1-sigma by turning, over the angle turned; 0 = off")                                     \
     KEY(REAL, keep_share, 0.9, 0.0, 0.99, "",                                                     \
         "kept from step to step of the evidence for the end, and of how axes wander")             \
