@@ -104,6 +104,7 @@ static void begin(void)
                                       INSOLE_WALK_HEADING_UDIRECT};
     insole_phone_walk_config_t walk = insole_phone_walk_defaults;
     walk.faces = 1;
+    walk.gait = 0;
     for (int a = 0; a < ATTITUDES; a++) {
         rival_t *r = &rivals[a];
         r->method = a == EKF ? insole_attitude_ekf : a == UKF ? insole_attitude_ukf : NULL;

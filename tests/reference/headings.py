@@ -6,8 +6,9 @@ Errands in an office full of steel; a phone in the hand, at the ear, in a swingi
 pocket, each mounting and person by its seed. Share of the steps within 15 degrees of where they
 led, by RMPCA on the UKF, on the EKF and on the true attitude, as printed in the paper (each step
 for itself), by uDirect, and as the mean that phone_walk keeps; the share of wrong ends; and
-whether the reported sigma is honest. `--walks N`: of each way to carry it; 2 are quick, but what steel and iron do to the
-compass of eight people is no measure of which steps are worse, so that is checked from 10 on.
+whether the reported sigma is honest. `--walks N`: of each way to carry it; 2 are quick, but what
+steel and iron do to the compass of eight people is no measure of which steps are worse: that is
+checked from 10 on.
 """
 import argparse
 import math

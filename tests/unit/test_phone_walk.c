@@ -207,6 +207,7 @@ static void set_up_stroll(int32_t faces)
 {
     set_up_walk();
     config.faces = faces;
+    config.gait = 0;
     attitude.aligned = true;
 }
 

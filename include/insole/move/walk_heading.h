@@ -68,9 +68,9 @@ typedef enum {
     KEY(CHOICE, method, 0, 0, 3, "rmpca|udirect|device|gait", "what tells the direction")         \
     KEY(INT, steps, 2, 1, 4, "",                                                                  \
         "steps in a row that are looked at together (udirect: always 1); 1: as in the paper")     \
-    KEY(REAL, sway_weight, 0.1, 0.0, 1.0, "",                                                    \
+    KEY(REAL, sway_weight, 0.1, 0.0, 1.0, "",                                                     \
         "weight of motion at other than a step's frequency; 1 = as in the paper")                 \
-    KEY(REAL, axis_keep, 0.93, 0.0, 0.99, "",                                                      \
+    KEY(REAL, axis_keep, 0.93, 0.0, 0.99, "",                                                     \
         "kept from step to step of what tells the axis; 0 = as in the paper")                     \
     KEY(CHOICE, turned_by, 0, 0, 1, "walker|hand", "who has turned when the phone has")           \
     KEY(REAL, tipped_rad, 0.9, 0.1, 3.2, "rad", "a phone tipped over by so much is carried anew") \
@@ -80,19 +80,19 @@ typedef enum {
         "phase of a step by which the forward acceleration leads the vertical one")               \
     KEY(REAL, least_mps2, 0.15, 0.01, 10.0, "m/s^2",                                              \
         "a level acceleration of smaller rms along its axis has no direction")                    \
-    KEY(REAL, sigma_tilt_rad, 0.015, 0.0, 1.0, "rad",                                              \
-        "1-sigma of a tilt that the attitude does not know of, or that the mean force leaves")                    \
-    KEY(REAL, sigma_rad, 0.02, 0.0, 3.0, "rad", "1-sigma of the best direction of a step")         \
+    KEY(REAL, sigma_tilt_rad, 0.01, 0.0, 1.0, "rad",                                              \
+        "1-sigma of a tilt that the attitude does not know, or that the mean force leaves")       \
+    KEY(REAL, sigma_rad, 0.02, 0.0, 3.0, "rad", "1-sigma of the best direction of a step")        \
     KEY(REAL, scatter_share, 0.02, 0.0, 100.0, "",                                                \
         "variance by motion across the axis, over its share; 0 = off")                            \
-    KEY(REAL, wander_share, 0.45, 0.0, 100.0, "",                                                  \
-        "variance over that between the axes of steps in a row; 0 = off")                         \
-    KEY(REAL, turn_share, 0.25, 0.0, 10.0, "",                                                     \
+    KEY(REAL, wander_share, 0.45, 0.0, 100.0, "",                                                 \
+        "variance over that between the axes of one foot's steps; 0 = off")                       \
+    KEY(REAL, turn_share, 0.2, 0.0, 10.0, "",                                                     \
         "1-sigma by turning, over the angle turned; 0 = off")                                     \
     KEY(REAL, keep_share, 0.9, 0.0, 0.99, "",                                                     \
         "kept from step to step of the evidence for the end, and of how axes wander")             \
     KEY(REAL, forget_s, 5.0, 0.1, 1000.0, "s",                                                    \
-        "time constant of all that is kept, between two walks")                                        \
+        "time constant of all that is kept, between two walks")                                   \
     KEY(REAL, certain_evidence, 2.5, 0.0, 100.0, "", "evidence from which the end is certain")
 /* clang-format on */
 
