@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/foot_fusion.h"
 
-#include "insole/base/fastmath.h"
 #include "insole/track/fusion_fix.h"
 
 #define ZERO INSOLE_R(0.0)

@@ -35,7 +35,7 @@ typedef enum {
     KEY(REAL, sigma_range_m, 2.0, 0.01, 100.0, "m",                                               \
         "two-order: sigma_2 of (39), of a range from signal strength")                            \
     KEY(INT, start_fixes, 1, 1, 8, "",                                                            \
-        "fixes of radio that a start takes which nobody tells; more than 1 tell a direction, too")  \
+        "fixes of radio that a start takes which nobody tells; more than 1 tell a direction, too") \
     KEY(REAL, unsure_start_m, 0.5, 0.0, 100.0, "m",                                               \
         "1-sigma added to a start that radio has found")                                          \
     KEY(REAL, search_sigma_m, 1.0, 0.1, 1000.0, "m",                                              \

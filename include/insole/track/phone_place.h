@@ -41,8 +41,8 @@ extern "C" {
     KEY(REAL, direct_sigma_rad, 0.5, 0.0, 4.0, "rad",                                             \
         "a filter that learns the direction starts with the first fix when it is known so well")  \
     KEY(REAL, bias_share, 0.5, 0.0, 100.0, "",                                                    \
-        "1-sigma of what fixes share, of that which they tell of themselves, on the mean; at most " \
-        "the filter's own")                                                                        \
+        "1-sigma of what fixes share, of that which they tell of themselves, on the mean; no more "\
+        "than the filter's own")                                                                  \
     KEY(REAL, sigma_walk_mps, 0.8, 0.0, 10.0, "m/s",                                              \
         "1-sigma of the velocity while samples are missing")                                      \
     KEY(REAL, sigma_gap_turn_rad_rts, 0.75, 0.0, 3.0, "rad/sqrt(s)",                              \
