@@ -148,7 +148,7 @@ static void begin_carry(void)
 static void call_insole_carry_push(uint32_t call)
 {
     (void)call;
-    insole_carry_push(&carry, imu.t_us, imu.accel_mps2, NULL);
+    insole_carry_push(&carry, imu.t_us, imu.accel_mps2, &imu.gyro_radps, NULL);
     bench_take_vec3(0u, carry.window.gravity);
 }
 
@@ -156,7 +156,7 @@ static void make_window(uint32_t call)
 {
     for (uint32_t i = 0u; i < 100u; i++) {
         make_sample(100u * call + i);
-        insole_carry_push(&carry, imu.t_us, imu.accel_mps2, NULL);
+        insole_carry_push(&carry, imu.t_us, imu.accel_mps2, &imu.gyro_radps, NULL);
     }
 }
 
