@@ -69,7 +69,7 @@ insole_real_t insole_rng_normal(insole_rng_t *rng)
     return point.distance * insole_cos(point.bearing_rad);
 }
 
-void insole_rng_normals(insole_rng_t *rng, insole_real_t *first, insole_real_t *second)
+INSOLE_FLAT void insole_rng_normals(insole_rng_t *rng, insole_real_t *first, insole_real_t *second)
 {
     polar_t point = normal_point(rng);
     insole_turn_t bearing = insole_turn(point.bearing_rad);

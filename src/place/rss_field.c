@@ -151,7 +151,7 @@ static int32_t cell_of(insole_real_t at)
     return number < SIDE - 1 ? number : SIDE - 2;
 }
 
-static cell_t cell_at(const insole_rss_field_t *field, insole_real_t x_m, insole_real_t y_m)
+static inline cell_t cell_at(const insole_rss_field_t *field, insole_real_t x_m, insole_real_t y_m)
 {
     const insole_wall_losses_t *losses = &field->losses;
     insole_real_t x = in_lattice(x_m, losses->column, losses->spacing_m);
@@ -163,7 +163,8 @@ static cell_t cell_at(const insole_rss_field_t *field, insole_real_t x_m, insole
     return cell;
 }
 
-void insole_rss_field_need(insole_rss_field_t *field, insole_real_t x_m, insole_real_t y_m)
+INSOLE_FLAT void insole_rss_field_need(insole_rss_field_t *field, insole_real_t x_m,
+                                       insole_real_t y_m)
 {
     if (!field) {
         return;
@@ -317,8 +318,8 @@ static insole_real_t between_views(const insole_rss_field_t *field, const cell_t
            HALF * (c * (ahead - behind) + s * (left - right));
 }
 
-insole_real_t insole_rss_field_at(const insole_rss_field_t *field, insole_real_t x_m,
-                                  insole_real_t y_m, insole_turn_t direction)
+INSOLE_FLAT insole_real_t insole_rss_field_at(const insole_rss_field_t *field, insole_real_t x_m,
+                                              insole_real_t y_m, insole_turn_t direction)
 {
     if (!field || !is_complete(field)) {
         return ZERO;

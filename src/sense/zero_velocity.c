@@ -126,23 +126,15 @@ static void measure(insole_zero_velocity_t *zv)
 
 /* ---- the judgement ---------------------------------------------------------------------- */
 
-static void begin_past_block(insole_zero_velocity_t *zv)
-{
-    zv->past_at = (zv->past_at + 1u) % INSOLE_STANCE_PAST;
-    zv->past[zv->past_at] = INSOLE_REAL_MAX;
-}
-
 static void remember_past(insole_zero_velocity_t *zv, uint32_t t_us, insole_real_t statistic)
 {
+    for (uint32_t i = 0u; i < INSOLE_STANCE_PAST && t_us - zv->past_began_us >= zv->past_us; i++) {
+        zv->past_began_us += zv->past_us;
+        zv->past_at = (zv->past_at + 1u) % INSOLE_STANCE_PAST;
+        zv->past[zv->past_at] = INSOLE_REAL_MAX;
+    }
     if (t_us - zv->past_began_us >= zv->past_us) {
-        for (uint32_t i = 0u; i < INSOLE_STANCE_PAST && t_us - zv->past_began_us >= zv->past_us;
-             i++) {
-            zv->past_began_us += zv->past_us;
-            begin_past_block(zv);
-        }
-        if (t_us - zv->past_began_us >= zv->past_us) {
-            zv->past_began_us = t_us; /* after a gap */
-        }
+        zv->past_began_us = t_us; /* after a gap */
     }
     zv->past[zv->past_at] = insole_min(zv->past[zv->past_at], statistic);
 }

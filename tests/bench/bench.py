@@ -160,8 +160,9 @@ def renew(bench, emulated):
     host_compiler, host = measure_host(bench)
     m4_compiler, m4 = measure_m4(emulated)
     cases = {name: {**host[name], **counts} for name, counts in m4.items()}
-    for name in ESTIMATED:
-        cases[name][CYCLES] = cycles.measure("arm-none-eabi-objdump", name, emulated)[0]
+    for name in (name for name in ESTIMATED if name in cases):
+        took, ran, _ = cycles.measure("arm-none-eabi-objdump", name, emulated)
+        cases[name][CYCLES] = round(cases[name]["m4"] * took / ran)
     EXPECTED.write_text(write_expected({"host": host_compiler, "m4": m4_compiler}, cases))
     return []
 

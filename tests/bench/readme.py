@@ -39,7 +39,7 @@ def table():
     lines = ["| call | x86-64 | Cortex-M4F, mean | largest | cycles |", "|---|---|---|---|---|"]
     for name, title in TITLES.items():
         parts = next((n for start, n in PARTS.items() if name.startswith(start)), 1)
-        counts = (round(int(rows[name][c]) / parts)
+        counts = (round(int(rows[name][c]) / parts) if rows[name][c] else ""
                   for c in ("host", "m4", "m4_max", "m4_cycles"))
         lines.append(f"| {title} | {' | '.join(map(str, counts))} |")
     return "\n".join(lines)
