@@ -91,6 +91,17 @@ START_TEST(people_read_of_map_radio_and_compass)
 }
 END_TEST
 
+START_TEST(people_read_where_the_phone_was_carried)
+{
+    make_good_facts(METHOD_PHONE_BEST);
+    ck_assert_ptr_null(strstr(printed("best"), "carried"));
+    facts.phone.carried[INSOLE_CARRY_EAR] = 30u;
+    facts.phone.carried[INSOLE_CARRY_SWING] = 90u;
+    ck_assert_ptr_nonnull(
+        strstr(printed("best"), "  carried        ear 25 %, swing 75 % of 120 steps\n"));
+}
+END_TEST
+
 START_TEST(people_read_of_plan_and_particles)
 {
     make_good_facts(METHOD_PHONE_BEST);
@@ -138,6 +149,8 @@ START_TEST(programs_read_all_of_it)
     make_good_facts(METHOD_PHONE_BEST);
     facts.phone.unplaced = 2u;
     facts.phone.gaps = 3u;
+    facts.phone.carried[INSOLE_CARRY_HAND] = 90u;
+    facts.phone.carried[INSOLE_CARRY_POCKET] = 30u;
     facts.fusion.unknown_ids = 5u;
     ck_assert_str_eq(as_json("best"), "{\n"
                                       "  \"states\": {\n"
@@ -160,7 +173,13 @@ START_TEST(programs_read_all_of_it)
                                       "    \"unknown_ids\": 5,\n"
                                       "    \"magnetic\": 6000,\n"
                                       "    \"starts\": 1,\n"
-                                      "    \"gaps\": 3\n"
+                                      "    \"gaps\": 3,\n"
+                                      "    \"carried\": {\n"
+                                      "      \"hand\": 90,\n"
+                                      "      \"ear\": 0,\n"
+                                      "      \"swing\": 0,\n"
+                                      "      \"pocket\": 30\n"
+                                      "    }\n"
                                       "  }\n"
                                       "}\n");
 }
@@ -313,6 +332,7 @@ END_TEST
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("summary_phone");
+    suite_add(suite, "carried", people_read_where_the_phone_was_carried);
     suite_add(suite, "text", people_read_of_map_radio_and_compass);
     suite_add(suite, "plan", people_read_of_plan_and_particles);
     suite_add(suite, "no map", without_a_map_only_those_who_need_it_are_told);
