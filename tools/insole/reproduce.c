@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "reproduce.h"
 
-#ifdef INSOLE_HOST_HAS_SIMULATOR
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -203,5 +201,3 @@ void reproduce_free(reproduction_t *reproduction)
     }
     free(reproduction->folder);
 }
-
-#endif

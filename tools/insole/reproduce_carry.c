@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "reproduce_carry.h"
 
-#ifdef INSOLE_HOST_HAS_SIMULATOR
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -137,5 +135,3 @@ void reproduce_carry_free(reproduce_carry_t *carry)
 {
     carry_windows_free(&carry->windows);
 }
-
-#endif

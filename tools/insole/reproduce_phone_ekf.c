@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "reproduce.h"
 
-#ifdef INSOLE_HOST_HAS_SIMULATOR
-
 #include <math.h>
 #include <string.h>
 
@@ -255,5 +253,3 @@ const reproduce_paper_t reproduce_phone_ekf = {.name = "PhoneEKF",
                                                .settings = settings,
                                                .notes = notes,
                                                .more = &more};
-
-#endif

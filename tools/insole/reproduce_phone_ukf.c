@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "reproduce.h"
 
-#ifdef INSOLE_HOST_HAS_SIMULATOR
-
 #include <string.h>
 
 #include "reproduce_carry.h"
@@ -271,5 +269,3 @@ const reproduce_paper_t reproduce_phone_ukf = {.name = "PhoneUKF",
                                                .settings = settings,
                                                .notes = notes,
                                                .more = &more};
-
-#endif

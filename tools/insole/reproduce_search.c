@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "reproduce_search.h"
 
-#ifdef INSOLE_HOST_HAS_SIMULATOR
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -201,5 +199,3 @@ void reproduce_search_free(reproduce_search_t *search)
         free(search->sums_m[row]);
     }
 }
-
-#endif

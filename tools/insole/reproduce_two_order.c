@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "reproduce.h"
 
-#ifdef INSOLE_HOST_HAS_SIMULATOR
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -165,5 +163,3 @@ const reproduce_paper_t reproduce_two_order = {.name = "TwoOrder",
                                                .settings = settings,
                                                .notes = notes,
                                                .more = &more};
-
-#endif

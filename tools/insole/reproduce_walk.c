@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "reproduce_walk.h"
 
-#ifdef INSOLE_HOST_HAS_SIMULATOR
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -306,5 +304,3 @@ bool reproduce_track(const reproduction_t *reproduction, const reproduce_row_t *
     const replay_sink_t sink = {track, NULL, reproduce_keep_row, NULL};
     return reproduce_replay(reproduction, row, &sink, failure);
 }
-
-#endif

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "reproduce_wifi_shift.h"
 
-#ifdef INSOLE_HOST_HAS_SIMULATOR
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -241,5 +239,3 @@ void wifi_shift_free(wifi_shift_t *study)
         free(folders[i]);
     }
 }
-
-#endif

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "reproduce_wifi_shift.h"
 
-#ifdef INSOLE_HOST_HAS_SIMULATOR
-
 #include <math.h>
 
 #include "json.h"
@@ -223,5 +221,3 @@ void wifi_shift_json(const wifi_shift_t *study, FILE *file)
     json_end(&json);
     json_end(&json);
 }
-
-#endif

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "reproduce_wifi_shift.h"
 
-#ifdef INSOLE_HOST_HAS_SIMULATOR
-
 /* What is the same for all of the paper's rows. */
 #define PARTS "phone_parts.fix=ml", "ml_fix.density=gauss", "ml_fix.answer=likeliest"
 
@@ -81,5 +79,3 @@ const wifi_shift_claim_t *wifi_shift_claims(int *count)
     *count = (int)(sizeof claims / sizeof claims[0]);
     return claims;
 }
-
-#endif

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "reproduce_wifi_shift.h"
 
-#ifdef INSOLE_HOST_HAS_SIMULATOR
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -158,5 +156,3 @@ bool wifi_shift_draw(const wifi_shift_t *study, failure_t *failure)
     free(path);
     return is_good;
 }
-
-#endif
