@@ -324,15 +324,15 @@ static void end_phase(insole_particle_filter_t *filter, const insole_cloud_t *cl
 static void work_particles(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
                            const insole_floor_plan_t *plan, uint32_t *budget)
 {
-    bool is_step =
-        filter->phase == INSOLE_PARTICLES_STEP || filter->phase == INSOLE_PARTICLES_STEP_WEIGH;
-    bool is_soft = filter->config.walls == INSOLE_WALLS_SOFT;
+    const insole_particle_phase_t phase = filter->phase;
+    bool is_step = phase == INSOLE_PARTICLES_STEP || phase == INSOLE_PARTICLES_STEP_WEIGH;
+    bool is_free = filter->config.walls == INSOLE_WALLS_SOFT && phase != INSOLE_PARTICLES_DRAW;
     uint32_t end = insole_cloud_slice(cloud, filter->next, budget);
     for (; is_step && filter->next < end; filter->next++) {
         step_one(filter, cloud, plan);
     }
     for (; filter->next < end; filter->next++) {
-        work_one(filter, cloud, is_soft && filter->phase != INSOLE_PARTICLES_DRAW ? NULL : plan);
+        work_one(filter, cloud, is_free ? NULL : plan);
     }
     if (filter->next == cloud->count) {
         end_phase(filter, cloud);

@@ -138,7 +138,7 @@ static insole_vec3_t vec3_of(const double v[3])
 static insole_carry_point_t felt(const sample_t *sample, uint8_t variant)
 {
     insole_carry_point_t point = {vec3_of(sample->accel), vec3_of(sample->gyro), sample->has_gyro};
-    if (variant > 0u) {
+    if (variant > 0u && variant < VARIANTS) {
         double a[3], w[3], strength = variants[variant].strength;
         for (int k = 0; k < 3; k++) {
             a[k] = sample->gravity[k] + strength * (sample->accel[k] - sample->gravity[k]);

@@ -67,7 +67,7 @@ static void describe(const drawing_t *drawing, char *text, size_t room)
 static bool draw(const drawing_t *drawing, failure_t *failure)
 {
     const arguments_t *arguments = drawing->arguments;
-    const char *names[PLOT_COLOURS];
+    const char *names[PLOT_COLOURS] = {NULL};
     char subtitle[160];
     for (size_t i = 0u; i < arguments->operand_count; i++) {
         names[i] = platform_base_name(arguments->operands[i]);
