@@ -161,11 +161,12 @@ static bool measure_walk(reproduction_t *reproduction, int walk, progress_t *pro
                          failure_t *failure)
 {
     int rows = reproduction->paper->row_count;
+    unsigned long long all = (unsigned long long)reproduction->request.runs * (unsigned)rows;
+    unsigned long long before = (unsigned long long)walk * (unsigned)rows;
     bool is_good = reproduce_open_walk(reproduction, walk, failure);
     for (int row = 0; is_good && row < rows; row++) {
         is_good = measure_row(reproduction, row, walk, failure);
-        progress_step(progress, (unsigned long long)(walk * rows + row + 1),
-                      (unsigned long long)(reproduction->request.runs * rows));
+        progress_step(progress, before + (unsigned)row + 1u, all);
     }
     is_good = is_good && measure_more(reproduction, failure) &&
               (walk > 0 || draw_all(reproduction, true, failure));

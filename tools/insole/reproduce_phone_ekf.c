@@ -171,7 +171,7 @@ static void add_headings(chart_line_t *line, const reproduction_t *reproduction,
 static void add_truth(chart_line_t *line, const track_t *steps, const chart_line_t *turned)
 {
     size_t k = 0u;
-    for (size_t i = 0u; i + 1u < steps->count; i++) {
+    for (size_t i = 0u; turned->count > 0u && i + 1u < steps->count; i++) {
         double direction_rad, begin_s = 1e-6 * (double)steps->rows[i].t_us;
         while (k + 1u < turned->count && turned->points[k].x < begin_s) {
             k++;

@@ -109,12 +109,13 @@ static bool search_row(reproduce_search_t *search, int row, progress_t *progress
     const reproduction_t *reproduction = search->reproduction;
     const reproduce_paper_t *paper = reproduction->paper;
     int combinations = reproduce_search_count(&paper->rows[row]);
+    unsigned long long rows = (unsigned)paper->row_count;
+    unsigned long long before = (unsigned)walk * rows + (unsigned)row;
     bool is_good = true;
     for (int i = 0; is_good && i < combinations; i++) {
         is_good = try_combination(search, row, i, failure);
-        unsigned long long of_row = (unsigned long long)(walk * paper->row_count + row);
-        progress_step(progress, of_row * 1000u + 1000u * (unsigned)i / (unsigned)combinations,
-                      1000u * (unsigned long long)(reproduction->request.runs * paper->row_count));
+        progress_step(progress, 1000u * before + 1000u * (unsigned)i / (unsigned)combinations,
+                      1000u * rows * (unsigned)reproduction->request.runs);
     }
     return is_good;
 }

@@ -28,9 +28,8 @@ static const char *const settings[] = {"zero_velocity.detector=two-step",
                                        NULL};
 
 static const char *const notes[] = {
-    "All but Wi-Fi only are told the true start. Of two-order the inertial position alone knows "
-    "its",
-    "place: the particles begin at the Wi-Fi fix, as table 2 has it.",
+    "All but Wi-Fi only are told the true start. Of two-order the inertial position alone",
+    "knows its place: the particles begin at the Wi-Fi fix, as table 2 has it.",
     "The sensor's noise was set once, by other seeds, so that PDR-only comes within 20 % of",
     "what is printed. The paper prints no row of Wi-Fi alone.", NULL};
 
