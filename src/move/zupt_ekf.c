@@ -339,7 +339,7 @@ insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf, insole_vec3_t velo
         return refuse(ekf, INSOLE_ERR_VALUE);
     }
     insole_zupt_cov_t *P = &ekf->P;
-    insole_real_t dt = (insole_real_t)(t_us - ekf->t_us) * INSOLE_R(1.0e-6);
+    insole_real_t dt = insole_seconds(ekf->t_us, t_us);
     if (ekf->trace.step != INSOLE_ZUPT_STEP_COAST) {
         forget_motion(P);
         P->vv = insole_sym3_add_diagonal(P->vv, insole_square(sigma_mps));

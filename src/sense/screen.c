@@ -314,7 +314,7 @@ static insole_status_t average(insole_screen_t *s, const insole_clean_t *c, inso
     if (s->sum_count == 0u && since_us >= s->least_us) {
         return give(s, c, clean);
     }
-    insole_real_t weight_s = (insole_real_t)since_us * INSOLE_R(1.0e-6) - s->sum_s;
+    insole_real_t weight_s = insole_seconds(0u, since_us) - s->sum_s;
     sum_add(s, c, insole_max(weight_s, INSOLE_R(1.0e-6)));
     if (since_us < s->least_us) {
         s->counts.averaged++;

@@ -115,7 +115,7 @@ static void learn_bias(insole_still_bias_t *rest, insole_vec3_t measured, insole
 
 static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
 {
-    insole_real_t since_s = (insole_real_t)(rest->last_us - rest->first_us) * INSOLE_R(1.0e-6);
+    insole_real_t since_s = insole_seconds(rest->first_us, rest->last_us);
     insole_real_t g = insole_vec3_norm(mean_accel);
     if (since_s > rest->config.gravity_s ||
         insole_abs(g - rest->config.gravity_mps2) > GRAVITY_SPREAD_MPS2) {
