@@ -21,8 +21,8 @@ insole_status_t insole_still_bias_check(const insole_still_bias_config_t *config
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
-                                       const insole_still_bias_config_t *config)
+INSOLE_COLD insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
+                                                   const insole_still_bias_config_t *config)
 {
     if (!rest || !config) {
         return INSOLE_ERR_NULL;
@@ -102,7 +102,8 @@ static void learn_axis(insole_real_t *bias, insole_real_t *variance, insole_real
     *variance *= INSOLE_R(1.0) - gain;
 }
 
-static void learn_bias(insole_still_bias_t *rest, insole_vec3_t measured, insole_real_t apart)
+INSOLE_COLD static void learn_bias(insole_still_bias_t *rest, insole_vec3_t measured,
+                                   insole_real_t apart)
 {
     const insole_still_bias_config_t *c = &rest->config;
     insole_real_t var =
@@ -113,7 +114,7 @@ static void learn_bias(insole_still_bias_t *rest, insole_vec3_t measured, insole
     rest->rests++;
 }
 
-static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
+INSOLE_COLD static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
 {
     insole_real_t since_s = insole_seconds(rest->first_us, rest->last_us);
     insole_real_t g = insole_vec3_norm(mean_accel);
@@ -127,7 +128,7 @@ static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
 }
 
 /* A full block against the one before. */
-static void end_block(insole_still_bias_t *rest)
+INSOLE_COLD static void end_block(insole_still_bias_t *rest)
 {
     const insole_still_bias_config_t *c = &rest->config;
     insole_still_moments_t now = moments_of(&rest->block), *before = &rest->before;

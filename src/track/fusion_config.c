@@ -23,7 +23,7 @@ static insole_status_t check_own(const insole_foot_fusion_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_fusion_config_check(const insole_foot_fusion_config_t *config)
+INSOLE_COLD insole_status_t insole_fusion_config_check(const insole_foot_fusion_config_t *config)
 {
     if (!config) {
         return INSOLE_ERR_NULL;
@@ -37,8 +37,8 @@ insole_status_t insole_fusion_config_check(const insole_foot_fusion_config_t *co
     return all ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 
-insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,
-                                           insole_real_t lag_s)
+INSOLE_COLD insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,
+                                                       insole_real_t lag_s)
 {
     if (!memory) {
         return INSOLE_ERR_NULL;
