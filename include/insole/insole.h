@@ -17,6 +17,7 @@
 #include "insole/base/real.h"
 #include "insole/base/ring.h"
 #include "insole/base/rng.h"
+#include "insole/base/slot.h"
 #include "insole/base/snapshot.h"
 #include "insole/base/status.h"
 #include "insole/base/sym2.h"

@@ -21,13 +21,20 @@ static insole_status_t refuse(insole_auto_start_t *start, insole_status_t why)
     return why;
 }
 
-insole_status_t insole_auto_start_init(insole_auto_start_t *start,
-                                       const insole_auto_start_config_t *config)
+insole_status_t insole_auto_start_check(const insole_auto_start_config_t *config)
+{
+    typedef insole_auto_start_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_AUTO_START_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
+INSOLE_COLD insole_status_t insole_auto_start_init(insole_auto_start_t *start,
+                                                   const insole_auto_start_config_t *config)
 {
     if (!start || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_AUTO_START_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_auto_start_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(start, 0, sizeof *start);
@@ -36,7 +43,8 @@ insole_status_t insole_auto_start_init(insole_auto_start_t *start,
     return INSOLE_OK;
 }
 
-insole_status_t insole_auto_start_step(insole_auto_start_t *start, const insole_pace_t *pace)
+INSOLE_COLD insole_status_t insole_auto_start_step(insole_auto_start_t *start,
+                                                   const insole_pace_t *pace)
 {
     if (!start || !pace) {
         return INSOLE_ERR_NULL;
@@ -59,8 +67,9 @@ insole_status_t insole_auto_start_step(insole_auto_start_t *start, const insole_
     return INSOLE_OK;
 }
 
-insole_status_t insole_auto_start_compass(insole_auto_start_t *start, insole_real_t offset_rad,
-                                          insole_real_t sigma_rad)
+INSOLE_COLD insole_status_t insole_auto_start_compass(insole_auto_start_t *start,
+                                                      insole_real_t offset_rad,
+                                                      insole_real_t sigma_rad)
 {
     if (!start) {
         return INSOLE_ERR_NULL;
@@ -76,7 +85,8 @@ insole_status_t insole_auto_start_compass(insole_auto_start_t *start, insole_rea
     return INSOLE_OK;
 }
 
-insole_status_t insole_auto_start_bias(insole_auto_start_t *start, insole_real_t sigma_m)
+INSOLE_COLD insole_status_t insole_auto_start_bias(insole_auto_start_t *start,
+                                                   insole_real_t sigma_m)
 {
     if (!start) {
         return INSOLE_ERR_NULL;
@@ -163,7 +173,8 @@ static void take(insole_auto_start_t *start, const insole_spot_fix_t *fix)
     start->fixes++;
 }
 
-insole_status_t insole_auto_start_fix(insole_auto_start_t *start, const insole_spot_fix_t *fix)
+INSOLE_COLD insole_status_t insole_auto_start_fix(insole_auto_start_t *start,
+                                                  const insole_spot_fix_t *fix)
 {
     if (!start || !fix) {
         return INSOLE_ERR_NULL;
@@ -270,8 +281,8 @@ static void take_circles(const insole_auto_start_t *start, insole_auto_start_ans
     answer->offset_rad = offset_rad;
 }
 
-insole_status_t insole_auto_start_answer(const insole_auto_start_t *start,
-                                         insole_auto_start_answer_t *answer)
+INSOLE_COLD insole_status_t insole_auto_start_answer(const insole_auto_start_t *start,
+                                                     insole_auto_start_answer_t *answer)
 {
     if (!start || !answer) {
         return INSOLE_ERR_NULL;

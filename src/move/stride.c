@@ -9,13 +9,20 @@
 
 const insole_stride_config_t insole_stride_defaults = {INSOLE_STRIDE_KEYS(INSOLE_CONFIG_DEFAULT)};
 
-insole_status_t insole_stride_init(insole_stride_counter_t *counter,
-                                   const insole_stride_config_t *config)
+insole_status_t insole_stride_check(const insole_stride_config_t *config)
+{
+    typedef insole_stride_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_STRIDE_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
+INSOLE_COLD insole_status_t insole_stride_init(insole_stride_counter_t *counter,
+                                               const insole_stride_config_t *config)
 {
     if (!counter || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_STRIDE_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_stride_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(counter, 0, sizeof *counter);
@@ -24,7 +31,7 @@ insole_status_t insole_stride_init(insole_stride_counter_t *counter,
     return INSOLE_OK;
 }
 
-void insole_stride_restart(insole_stride_counter_t *counter)
+INSOLE_COLD void insole_stride_restart(insole_stride_counter_t *counter)
 {
     if (counter) {
         counter->has_origin = false;
@@ -33,7 +40,7 @@ void insole_stride_restart(insole_stride_counter_t *counter)
     }
 }
 
-static void begin_stride(insole_stride_counter_t *c, const insole_stride_input_t *at)
+INSOLE_COLD static void begin_stride(insole_stride_counter_t *c, const insole_stride_input_t *at)
 {
     c->origin_m = at->position_m;
     c->origin_yaw_rad = at->yaw_rad;
@@ -82,7 +89,7 @@ static bool is_far_enough(const insole_stride_counter_t *c)
 }
 
 /* The present stance is good enough to end the stride in progress. */
-static bool end_stride(insole_stride_counter_t *c, insole_stride_t *stride)
+INSOLE_COLD static bool end_stride(insole_stride_counter_t *c, insole_stride_t *stride)
 {
     c->settled = true;
     if (!c->has_origin) {

@@ -14,10 +14,9 @@ const insole_propagation_config_t insole_propagation_defaults = {
 
 insole_status_t insole_propagation_check(const insole_propagation_config_t *config)
 {
-    if (!config) {
-        return INSOLE_ERR_NULL;
-    }
-    return (true INSOLE_PROPAGATION_KEYS(INSOLE_CONFIG_IN_RANGE)) ? INSOLE_OK : INSOLE_ERR_VALUE;
+    typedef insole_propagation_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_PROPAGATION_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
 /* What is lost on the way but for the distance. */
@@ -80,10 +79,11 @@ insole_status_t insole_propagation_expect(const insole_propagation_config_t *con
     return INSOLE_OK;
 }
 
-insole_status_t insole_propagation_range(const insole_propagation_config_t *config,
-                                         const insole_ap_t *ap, insole_real_t rss_dbm,
-                                         insole_real_t wall_loss_db, insole_real_t body_share,
-                                         insole_rss_range_t *range)
+INSOLE_COLD insole_status_t insole_propagation_range(const insole_propagation_config_t *config,
+                                                     const insole_ap_t *ap, insole_real_t rss_dbm,
+                                                     insole_real_t wall_loss_db,
+                                                     insole_real_t body_share,
+                                                     insole_rss_range_t *range)
 {
     if (!config || !ap || !range) {
         return INSOLE_ERR_NULL;
@@ -101,9 +101,9 @@ insole_status_t insole_propagation_range(const insole_propagation_config_t *conf
     return INSOLE_OK;
 }
 
-insole_status_t insole_propagation_nearest(const insole_ap_t *aps, uint32_t ap_count,
-                                           const insole_rss_t *readings, uint32_t count,
-                                           uint32_t *reading)
+INSOLE_COLD insole_status_t insole_propagation_nearest(const insole_ap_t *aps, uint32_t ap_count,
+                                                       const insole_rss_t *readings, uint32_t count,
+                                                       uint32_t *reading)
 {
     if (!aps || !readings || !reading) {
         return INSOLE_ERR_NULL;

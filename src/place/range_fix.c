@@ -14,10 +14,9 @@ const insole_range_fix_config_t insole_range_fix_defaults = {
 
 insole_status_t insole_range_fix_check(const insole_range_fix_config_t *config)
 {
-    if (!config) {
-        return INSOLE_ERR_NULL;
-    }
-    return (true INSOLE_RANGE_FIX_KEYS(INSOLE_CONFIG_IN_RANGE)) ? INSOLE_OK : INSOLE_ERR_VALUE;
+    typedef insole_range_fix_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_RANGE_FIX_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
 typedef struct {
@@ -136,10 +135,11 @@ static bool iterate(const problem_t *problem, const insole_known_t *known, insol
     return insole_vec3_is_finite(*x);
 }
 
-insole_status_t insole_range_fix_solve(const insole_range_fix_config_t *config,
-                                       const insole_ap_t *aps, uint32_t ap_count,
-                                       const insole_range_t *ranges, uint32_t count,
-                                       const insole_anchor_fix_t *before, insole_anchor_fix_t *fix)
+INSOLE_COLD insole_status_t insole_range_fix_solve(const insole_range_fix_config_t *config,
+                                                   const insole_ap_t *aps, uint32_t ap_count,
+                                                   const insole_range_t *ranges, uint32_t count,
+                                                   const insole_anchor_fix_t *before,
+                                                   insole_anchor_fix_t *fix)
 {
     if (!config || !aps || !ranges || !fix) {
         return INSOLE_ERR_NULL;
@@ -169,8 +169,8 @@ static void fade(insole_real_t *variance, insole_real_t by)
     }
 }
 
-insole_status_t insole_range_fix_age(const insole_range_fix_config_t *config,
-                                     insole_anchor_fix_t *fix, insole_real_t dt_s)
+INSOLE_COLD insole_status_t insole_range_fix_age(const insole_range_fix_config_t *config,
+                                                 insole_anchor_fix_t *fix, insole_real_t dt_s)
 {
     if (!config || !fix) {
         return INSOLE_ERR_NULL;

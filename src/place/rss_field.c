@@ -25,14 +25,13 @@ const insole_rss_field_config_t insole_rss_field_defaults = {
 
 insole_status_t insole_rss_field_check(const insole_rss_field_config_t *config)
 {
-    if (!config) {
-        return INSOLE_ERR_NULL;
-    }
-    return (true INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_IN_RANGE)) ? INSOLE_OK : INSOLE_ERR_VALUE;
+    typedef insole_rss_field_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_rss_field_init(insole_rss_field_t *field,
-                                      const insole_rss_field_config_t *config)
+INSOLE_COLD insole_status_t insole_rss_field_init(insole_rss_field_t *field,
+                                                  const insole_rss_field_config_t *config)
 {
     insole_status_t status = insole_rss_field_check(config);
     if (!field || status != INSOLE_OK) {
@@ -92,8 +91,9 @@ static void keep_strongest(heard_t *heard, const insole_building_t *building,
     }
 }
 
-insole_status_t insole_rss_field_hear(insole_rss_field_t *field, const insole_building_t *building,
-                                      const insole_rss_t *readings, uint32_t count)
+INSOLE_COLD insole_status_t insole_rss_field_hear(insole_rss_field_t *field,
+                                                  const insole_building_t *building,
+                                                  const insole_rss_t *readings, uint32_t count)
 {
     if (!field || !building || !building->propagation || !building->aps ||
         (!readings && count > 0)) {
@@ -176,7 +176,8 @@ INSOLE_FLAT void insole_rss_field_need(insole_rss_field_t *field, insole_real_t 
     node[SIDE + 1].needed = true;
 }
 
-insole_status_t insole_rss_field_place(insole_rss_field_t *field, const insole_rss_around_t *around)
+INSOLE_COLD insole_status_t insole_rss_field_place(insole_rss_field_t *field,
+                                                   const insole_rss_around_t *around)
 {
     if (!field || !around) {
         return INSOLE_ERR_NULL;
@@ -366,7 +367,7 @@ static void learn_offset(insole_rss_field_t *field)
     field->offset_db = insole_max(-limit, insole_min(offset_db, limit));
 }
 
-insole_status_t insole_rss_field_learn(insole_rss_field_t *field)
+INSOLE_COLD insole_status_t insole_rss_field_learn(insole_rss_field_t *field)
 {
     if (!field) {
         return INSOLE_ERR_NULL;

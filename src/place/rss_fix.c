@@ -15,10 +15,9 @@ const insole_rss_fix_config_t insole_rss_fix_defaults = {
 
 insole_status_t insole_rss_fix_check(const insole_rss_fix_config_t *config)
 {
-    if (!config) {
-        return INSOLE_ERR_NULL;
-    }
-    return (true INSOLE_RSS_FIX_KEYS(INSOLE_CONFIG_IN_RANGE)) ? INSOLE_OK : INSOLE_ERR_VALUE;
+    typedef insole_rss_fix_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_RSS_FIX_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
 typedef struct {
@@ -150,11 +149,11 @@ static insole_anchor_fix_t fix_at(const problem_t *problem, insole_vec3_t x, ins
     return fix;
 }
 
-insole_status_t insole_rss_fix_solve(const insole_rss_fix_config_t *config,
-                                     const insole_propagation_config_t *propagation,
-                                     const insole_ap_t *aps, uint32_t ap_count,
-                                     const insole_rss_t *readings, uint32_t count,
-                                     insole_anchor_fix_t *fix)
+INSOLE_COLD insole_status_t insole_rss_fix_solve(const insole_rss_fix_config_t *config,
+                                                 const insole_propagation_config_t *propagation,
+                                                 const insole_ap_t *aps, uint32_t ap_count,
+                                                 const insole_rss_t *readings, uint32_t count,
+                                                 insole_anchor_fix_t *fix)
 {
     if (!config || !propagation || !aps || !readings || !fix) {
         return INSOLE_ERR_NULL;

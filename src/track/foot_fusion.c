@@ -18,10 +18,11 @@ static const insole_fusion_unknown_t STRAY = {INSOLE_R(25.0), INSOLE_R(0.1)};
 /* A heading told so vaguely is compared with the first stride alone. */
 #define VAGUE_RAD INSOLE_R(0.3)
 
-insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion,
-                                        const insole_foot_fusion_config_t *config,
-                                        const insole_fusion_memory_t *memory,
-                                        const insole_building_t *building, uint64_t seed)
+INSOLE_COLD insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion,
+                                                    const insole_foot_fusion_config_t *config,
+                                                    const insole_fusion_memory_t *memory,
+                                                    const insole_building_t *building,
+                                                    uint64_t seed)
 {
     if (!fusion || !config || !memory) {
         return INSOLE_ERR_NULL;
@@ -47,7 +48,8 @@ static insole_status_t answer(insole_foot_fusion_t *fusion, insole_status_t stat
     return status;
 }
 
-insole_status_t insole_foot_fusion_start(insole_foot_fusion_t *fusion, const insole_start_t *start)
+INSOLE_COLD insole_status_t insole_foot_fusion_start(insole_foot_fusion_t *fusion,
+                                                     const insole_start_t *start)
 {
     if (!fusion) {
         return INSOLE_ERR_NULL;
@@ -62,7 +64,7 @@ insole_status_t insole_foot_fusion_imu(insole_foot_fusion_t *fusion, const insol
     return fusion ? insole_foot_tracker_imu(&fusion->foot, imu) : INSOLE_ERR_NULL;
 }
 
-insole_status_t insole_foot_fusion_finish(insole_foot_fusion_t *fusion)
+INSOLE_COLD insole_status_t insole_foot_fusion_finish(insole_foot_fusion_t *fusion)
 {
     if (!fusion) {
         return INSOLE_ERR_NULL;
@@ -129,7 +131,7 @@ static void mix_in_radio(const insole_foot_fusion_t *f, insole_real_t yaw_rad, i
     (void)insole_fusion_radio_mix(&f->radio, foot_n(f), insole_turn(yaw_rad), var_m2, fix);
 }
 
-static void begin(insole_foot_fusion_t *f, const insole_particle_start_t *start)
+INSOLE_COLD static void begin(insole_foot_fusion_t *f, const insole_particle_start_t *start)
 {
     insole_cloud_t cloud = insole_fusion_cloud(&f->memory);
     if (insole_particle_filter_start(&f->particles, &cloud, start) != INSOLE_OK) {
@@ -145,8 +147,8 @@ static void begin(insole_foot_fusion_t *f, const insole_particle_start_t *start)
     (void)insole_foot_late_stride(&f->late, 0u, f->strides.told_n_m);
 }
 
-static void begin_at(insole_foot_fusion_t *f, insole_fix_t fix, insole_real_t var_m2,
-                     insole_real_t yaw_rad, insole_real_t sigma_rad)
+INSOLE_COLD static void begin_at(insole_foot_fusion_t *f, insole_fix_t fix, insole_real_t var_m2,
+                                 insole_real_t yaw_rad, insole_real_t sigma_rad)
 {
     fix.var_x_m2 = var_m2;
     mix_in_radio(f, yaw_rad, var_m2, &fix);
@@ -163,7 +165,7 @@ static bool is_at_start(const insole_foot_fusion_t *f)
 }
 
 /* A told start serves once the foot has reached it and its direction, if told, has been walked. */
-static void begin_as_told(insole_foot_fusion_t *f, const insole_fix_t *foot)
+INSOLE_COLD static void begin_as_told(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
     const insole_foot_anchor_t *anchor = &f->foot.anchor;
     insole_real_t sigma_rad = f->foot.start.has_heading ? insole_sqrt(anchor->var_rad2) : INSOLE_PI;
@@ -175,7 +177,7 @@ static void begin_as_told(insole_foot_fusion_t *f, const insole_fix_t *foot)
 }
 
 /* Nobody tells: radio does. The paper's inertial position begins there too, with n as m lies. */
-static void begin_by_radio(insole_foot_fusion_t *f, uint64_t t_us)
+INSOLE_COLD static void begin_by_radio(insole_foot_fusion_t *f, uint64_t t_us)
 {
     insole_particle_start_t start;
     if (!insole_fusion_start_hear(&f->start, &f->radio, &start)) {
@@ -191,8 +193,8 @@ static void begin_by_radio(insole_foot_fusion_t *f, uint64_t t_us)
 }
 
 /* The particles go on where the foot seems to have come to, as wide as it has lost its way. */
-static void begin_after_gap(insole_foot_fusion_t *f, const insole_fix_t *foot,
-                            insole_fusion_unknown_t lost)
+INSOLE_COLD static void begin_after_gap(insole_foot_fusion_t *f, const insole_fix_t *foot,
+                                        insole_fusion_unknown_t lost)
 {
     insole_fix_t fix = *foot;
     fix_by_particles(f, &fix);
@@ -224,7 +226,7 @@ static void begin_if_possible(insole_foot_fusion_t *f, const insole_fix_t *foot)
     }
 }
 
-static void tell_stride(insole_foot_fusion_t *f, const insole_fix_t *foot)
+INSOLE_COLD static void tell_stride(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
     insole_spot_t end = {f->foot.strides.origin_m.x, f->foot.strides.origin_m.y};
     bool printed = f->config.method == INSOLE_FUSION_TWO_ORDER;
@@ -278,7 +280,7 @@ static bool is_good(const insole_foot_fusion_t *f, insole_real_t var_m2)
 }
 
 /* Whoever has lost the way is believed after some strides through which the cloud was good. */
-static void follow_work(insole_foot_fusion_t *f)
+INSOLE_COLD static void follow_work(insole_foot_fusion_t *f)
 {
     const insole_cloud_fix_t *cloud = &f->particles.fix;
     if (insole_particle_filter_has_settled(&f->particles)) {
@@ -360,7 +362,7 @@ static insole_status_t step(insole_foot_fusion_t *f, insole_fix_t *fix)
     return status;
 }
 
-static insole_status_t take_late(insole_foot_fusion_t *f, insole_fix_t *fix)
+INSOLE_COLD static insole_status_t take_late(insole_foot_fusion_t *f, insole_fix_t *fix)
 {
     insole_cloud_t cloud = insole_fusion_cloud(&f->memory);
     return insole_foot_late_take(&f->late, &f->particles, &cloud, f->counts.starts, fix);

@@ -66,8 +66,8 @@ static void keep_scan(insole_fusion_scan_t *kept, const insole_scan_t *scan,
     kept->waits = kept->count > 0u;
 }
 
-static void solve_scan(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
-                       const insole_fusion_scan_t *scan)
+INSOLE_COLD static void solve_scan(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
+                                   const insole_fusion_scan_t *scan)
 {
     const insole_building_t *b = site->building;
     insole_anchor_fix_t fix;
@@ -77,9 +77,9 @@ static void solve_scan(insole_fusion_radio_t *radio, const insole_fusion_site_t 
     }
 }
 
-insole_status_t insole_fusion_radio_hear(insole_fusion_radio_t *radio,
-                                         const insole_fusion_site_t *site,
-                                         const insole_scan_t *scan)
+INSOLE_COLD insole_status_t insole_fusion_radio_hear(insole_fusion_radio_t *radio,
+                                                     const insole_fusion_site_t *site,
+                                                     const insole_scan_t *scan)
 {
     if (!scan || (!scan->readings && scan->count > 0u)) {
         return INSOLE_ERR_NULL;
@@ -137,8 +137,9 @@ static void keep_range(insole_fusion_radio_t *radio, const insole_range_t *range
 }
 
 /* What ranges of one moment say, and what is remembered of those before. */
-static void solve_ranges(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
-                         const insole_range_t *ranges, uint32_t count, insole_spot_t n_m)
+INSOLE_COLD static void solve_ranges(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
+                                     const insole_range_t *ranges, uint32_t count,
+                                     insole_spot_t n_m)
 {
     const insole_building_t *b = site->building;
     uint64_t t_us = ranges[0].t_us;
@@ -152,9 +153,9 @@ static void solve_ranges(insole_fusion_radio_t *radio, const insole_fusion_site_
     }
 }
 
-insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *radio,
-                                          const insole_fusion_site_t *site,
-                                          const insole_range_t *ranges, uint32_t count)
+INSOLE_COLD insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *radio,
+                                                      const insole_fusion_site_t *site,
+                                                      const insole_range_t *ranges, uint32_t count)
 {
     if (!ranges && count > 0u) {
         return INSOLE_ERR_NULL;
@@ -186,8 +187,8 @@ static bool is_next_moment(const insole_fusion_ranges_t *ranges, uint64_t t_us)
 }
 
 /* The ranges of one moment find their place, and give one. */
-static void place_moment(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
-                         insole_spot_t n_m)
+INSOLE_COLD static void place_moment(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
+                                     insole_spot_t n_m)
 {
     insole_fusion_ranges_t *ranges = &radio->ranges;
     const insole_range_t *first = &ranges->range[ranges->placed];
@@ -267,9 +268,10 @@ static void tell_range(const insole_range_t *range, const insole_fusion_site_t *
     (void)insole_evidence_range(evidence, &told);
 }
 
-insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radio,
-                                         const insole_fusion_site_t *site, insole_spot_t end_n_m,
-                                         insole_evidence_t *evidence)
+INSOLE_COLD insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radio,
+                                                     const insole_fusion_site_t *site,
+                                                     insole_spot_t end_n_m,
+                                                     insole_evidence_t *evidence)
 {
     if (!radio || !site || !evidence) {
         return INSOLE_ERR_NULL;
@@ -289,7 +291,7 @@ insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radio,
     return INSOLE_OK;
 }
 
-void insole_fusion_radio_forget(insole_fusion_radio_t *radio)
+INSOLE_COLD void insole_fusion_radio_forget(insole_fusion_radio_t *radio)
 {
     if (radio) {
         radio->counts.unused += (radio->scan.waits ? 1u : 0u) + radio->ranges.placed;
@@ -301,7 +303,8 @@ void insole_fusion_radio_forget(insole_fusion_radio_t *radio)
 
 /* ---- radio alone ------------------------------------------------------------------------ */
 
-insole_status_t insole_fusion_radio_fix(const insole_fusion_radio_t *radio, insole_fix_t *fix)
+INSOLE_COLD insole_status_t insole_fusion_radio_fix(const insole_fusion_radio_t *radio,
+                                                    insole_fix_t *fix)
 {
     if (!radio || !fix) {
         return INSOLE_ERR_NULL;
@@ -317,7 +320,8 @@ insole_status_t insole_fusion_radio_fix(const insole_fusion_radio_t *radio, inso
     return INSOLE_OK;
 }
 
-insole_status_t insole_fusion_radio_take(insole_fusion_radio_t *radio, insole_fix_t *fix)
+INSOLE_COLD insole_status_t insole_fusion_radio_take(insole_fusion_radio_t *radio,
+                                                     insole_fix_t *fix)
 {
     if (!radio || !fix) {
         return INSOLE_ERR_NULL;
@@ -334,8 +338,9 @@ insole_status_t insole_fusion_radio_take(insole_fusion_radio_t *radio, insole_fi
     return INSOLE_OK;
 }
 
-insole_status_t insole_fusion_radio_mix(const insole_fusion_radio_t *radio, insole_spot_t n_m,
-                                        insole_turn_t turn, insole_real_t var_m2, insole_fix_t *fix)
+INSOLE_COLD insole_status_t insole_fusion_radio_mix(const insole_fusion_radio_t *radio,
+                                                    insole_spot_t n_m, insole_turn_t turn,
+                                                    insole_real_t var_m2, insole_fix_t *fix)
 {
     if (!radio || !fix) {
         return INSOLE_ERR_NULL;

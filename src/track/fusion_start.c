@@ -12,7 +12,7 @@ static const insole_real_t BIAS_M = INSOLE_R(1.0);
 /* With a larger one the direction counts as not known. */
 static const insole_real_t VAGUE_RAD = INSOLE_R(1.2);
 
-insole_status_t insole_fusion_start_init(insole_fusion_start_t *start, int32_t fixes)
+INSOLE_COLD insole_status_t insole_fusion_start_init(insole_fusion_start_t *start, int32_t fixes)
 {
     if (!start) {
         return INSOLE_ERR_NULL;
@@ -41,8 +41,9 @@ static void go_on(insole_fusion_start_t *start, insole_spot_t n_m)
     start->n_m = n_m;
 }
 
-bool insole_fusion_start_hear(insole_fusion_start_t *start, const insole_fusion_radio_t *radio,
-                              insole_particle_start_t *where)
+INSOLE_COLD bool insole_fusion_start_hear(insole_fusion_start_t *start,
+                                          const insole_fusion_radio_t *radio,
+                                          insole_particle_start_t *where)
 {
     if (!start || !radio || !where || !radio->has_fix) {
         return false;
