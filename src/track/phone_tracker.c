@@ -26,8 +26,7 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
     insole_phone_radio_t radio;
     if (insole_phone_config_check(config) != INSOLE_OK ||
         insole_phone_radio_init(&radio, &parts->solver, map, config->radio_late_s) != INSOLE_OK ||
-        (!has_filter(parts) && !insole_phone_radio_can_hear(&radio)) ||
-        (parts->gait.forest && insole_carry_forest_check(parts->gait.forest) != INSOLE_OK)) {
+        (!has_filter(parts) && !insole_phone_radio_can_hear(&radio))) {
         return INSOLE_ERR_VALUE;
     }
     insole_phone_place_t place = {.starts = 0u};
@@ -38,7 +37,7 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
     }
     *tracker = (insole_phone_tracker_t){
         .config = *config, .parts = *parts, .radio = radio, .place = place};
-    (void)insole_phone_walk_init(&tracker->walk, &config->walk, &parts->gait);
+    (void)insole_phone_walk_init(&tracker->walk, &config->walk, &parts->guide);
     (void)insole_screen_init(&tracker->screen, &config->screen);
     (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
     (void)insole_attitude_init(&tracker->attitude, &config->attitude);

@@ -15,7 +15,7 @@
  *      insole_step_fusion_init(&fusion, &insole_step_fusion_defaults);
  *      insole_kde_fix_init(&kde, &insole_kde_fix_defaults);
  *      insole_phone_parts_t parts = {insole_attitude_ekf, {&insole_kde_fix_calls, &kde},
- *                                    {&insole_step_ekf_calls, &fusion}, {NULL}};
+ *                                    {&insole_step_ekf_calls, &fusion}, {NULL, NULL}};
  *      insole_phone_tracker_init(&phone, &insole_phone_tracker_defaults, &parts, &map);
  *      on each sample:   insole_phone_tracker_imu(&phone, &imu);
  *                        while (insole_phone_tracker_next(&phone, &fix) == INSOLE_OK) use(&fix);
@@ -28,7 +28,7 @@
  *  Start: the one that was told; without it, where the fixes by radio place the walk, and its
  *  direction by the compass or by the fixes (auto_start.h). Until then the state is `search`.
  *
- *  A phone that is not held in front of its walker needs the parts of `gait` (phone_walk.h).
+ *  A phone that is not held in front of its walker needs a guide (phone_gait.h).
  *
  *  The first steps of a walk are held back until there is a rhythm; the position shows them before.
  *
@@ -49,7 +49,7 @@ typedef struct {
     insole_attitude_method_t *attitude; /**< NULL: the gyro alone */
     insole_radio_solver_t solver;
     insole_step_filter_t filter;
-    insole_phone_gait_t gait; /**< all NULL: a step goes where the phone points */
+    insole_phone_guide_t guide; /**< NULL: a step goes where the phone points */
 } insole_phone_parts_t;
 
 typedef struct {

@@ -20,7 +20,7 @@ int main(void)
     static const insole_phone_parts_t parts = {insole_attitude_ekf,
                                                {&insole_kde_fix_calls, &kde},
                                                {&insole_step_ekf_calls, &fusion},
-                                               {NULL, NULL, NULL}};
+                                               {NULL, NULL}};
     insole_fix_t fix;
     (void)insole_step_fusion_init(&fusion, &insole_step_fusion_defaults);
     (void)insole_kde_fix_init(&kde, &insole_kde_fix_defaults);
