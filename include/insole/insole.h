@@ -11,6 +11,7 @@
 #define INSOLE_VERSION       "0.1.0"
 
 #include "insole/base/config.h"
+#include "insole/base/divide.h"
 #include "insole/base/fastmath.h"
 #include "insole/base/mat.h"
 #include "insole/base/quat.h"

@@ -15,8 +15,7 @@ static const insole_real_t LARGEST_MPS2 = INSOLE_R(1.0e6);
 static insole_real_t frequency_hz(const insole_step_length_config_t *config,
                                   const insole_footfall_t *footfall)
 {
-    insole_real_t lasted_s =
-        (insole_real_t)(footfall->end_us - footfall->begin_us) * INSOLE_R(1.0e-6);
+    insole_real_t lasted_s = insole_seconds(footfall->begin_us, footfall->end_us);
     return ONE / insole_min(insole_max(lasted_s, config->min_s), config->max_s);
 }
 

@@ -29,11 +29,11 @@ static void begin(insole_rhythm_t *rhythm, uint64_t t_us)
 /* Grid points up to the new sample, on the line from the last sample to it. */
 static void fill_grid(insole_rhythm_t *rhythm, uint64_t t_us, insole_real_t value)
 {
-    insole_real_t slope = (value - rhythm->newest) / (insole_real_t)(t_us - rhythm->t_us);
+    insole_real_t slope = (value - rhythm->newest) / (insole_real_t)(uint32_t)(t_us - rhythm->t_us);
     while (t_us - rhythm->grid_us >= INSOLE_RHYTHM_GRID_US) {
         rhythm->grid_us += INSOLE_RHYTHM_GRID_US;
         rhythm->past[rhythm->end++ % INSOLE_RHYTHM_PAST] =
-            value - slope * (insole_real_t)(t_us - rhythm->grid_us);
+            value - slope * (insole_real_t)(uint32_t)(t_us - rhythm->grid_us);
     }
 }
 
@@ -82,7 +82,7 @@ insole_status_t insole_rhythm_likeness(const insole_rhythm_t *rhythm, uint64_t l
     if (lag_us < INSOLE_RHYTHM_FIRST_US || lag_us > INSOLE_RHYTHM_LAST_US) {
         return INSOLE_ERR_VALUE;
     }
-    uint32_t lag = (uint32_t)(lag_us / INSOLE_RHYTHM_GRID_US);
+    uint32_t lag = (uint32_t)lag_us / INSOLE_RHYTHM_GRID_US;
     *likeness = insole_max(likeness_at(rhythm, lag), likeness_at(rhythm, lag + 1u));
     return INSOLE_OK;
 }

@@ -17,11 +17,6 @@ static const uint64_t LONGEST_GAP_US = 250000u;
 
 enum { MOST_WAITING = INSOLE_STEP_RING - INSOLE_STEP_HELD - 1 /* a push may find one more */ };
 
-static insole_real_t seconds(uint64_t from_us, uint64_t to_us)
-{
-    return (insole_real_t)(to_us - from_us) * INSOLE_R(1.0e-6);
-}
-
 static void clear_span(insole_step_span_t *span)
 {
     static const insole_step_span_t nothing = {ZERO, ZERO, INSOLE_REAL_MAX, -INSOLE_REAL_MAX, 0u};
@@ -124,7 +119,7 @@ static void tell_held(insole_step_counter_t *c)
 static void learn(insole_step_counter_t *c)
 {
     const insole_footfall_t *f = newest_footfall(c, 1u);
-    insole_real_t interval_s = seconds(f->begin_us, f->end_us);
+    insole_real_t interval_s = insole_seconds(f->begin_us, f->end_us);
     if (interval_s < MISSED_ONE * c->usual_interval_s) {
         c->usual_interval_s += HABIT_WEIGHT * (interval_s - c->usual_interval_s);
     }
@@ -138,7 +133,7 @@ static void begin_walk(insole_step_counter_t *c)
     insole_real_t shortest_s = c->config.max_interval_s, sum_mps2 = ZERO;
     for (uint32_t back = 1u; back < c->held; back++) {
         const insole_footfall_t *f = newest_footfall(c, back);
-        shortest_s = insole_min(shortest_s, seconds(f->begin_us, f->end_us));
+        shortest_s = insole_min(shortest_s, insole_seconds(f->begin_us, f->end_us));
         sum_mps2 += f->range_mps2;
     }
     c->usual_interval_s = shortest_s; /* errs on the side that a step is not swallowed */
@@ -159,7 +154,7 @@ static void close_peak(insole_step_counter_t *c)
     const insole_step_config_t *s = &c->config;
     insole_real_t likeness =
         insole_max(likeness_since(c, c->last_us), likeness_since(c, c->before_us));
-    bool follows = c->has_last && seconds(c->last_us, c->peak.t_us) <= s->max_interval_s;
+    bool follows = c->has_last && insole_seconds(c->last_us, c->peak.t_us) <= s->max_interval_s;
     if (!follows) {
         drop_held(c);
     }
@@ -210,7 +205,7 @@ static bool is_deep(const insole_step_counter_t *c)
 /* Too soon after the peak to be another step. */
 static bool is_close(const insole_step_counter_t *c, uint64_t t_us)
 {
-    insole_real_t since_s = seconds(c->peak.t_us, t_us);
+    insole_real_t since_s = insole_seconds(c->peak.t_us, t_us);
     return since_s < c->config.min_interval_s || (since_s < dead_s(c) && !is_deep(c));
 }
 
@@ -268,7 +263,7 @@ static insole_real_t smooth(insole_step_counter_t *c, insole_real_t length_mps2,
 
 static void take(insole_step_counter_t *c, uint64_t t_us, insole_real_t length_mps2)
 {
-    insole_real_t dt_s = seconds(c->t_us, t_us);
+    insole_real_t dt_s = insole_seconds(c->t_us, t_us);
     insole_real_t value = smooth(c, length_mps2, dt_s);
     if (c->newest > c->older && c->newest >= value) {
         take_peak(c, c->t_us);
@@ -278,10 +273,10 @@ static void take(insole_step_counter_t *c, uint64_t t_us, insole_real_t length_m
     c->trough = insole_min(c->trough, value);
     c->older = c->newest;
     c->newest = value;
-    if (c->has_peak && seconds(c->peak.t_us, t_us) >= dead_s(c)) {
+    if (c->has_peak && insole_seconds(c->peak.t_us, t_us) >= dead_s(c)) {
         close_peak(c);
     }
-    if (!c->has_last || seconds(c->last_us, t_us) > c->config.max_interval_s) {
+    if (!c->has_last || insole_seconds(c->last_us, t_us) > c->config.max_interval_s) {
         c->usual_range_mps2 -= c->usual_range_mps2 * dt_s / (c->config.forget_s + dt_s);
     }
 }
