@@ -21,13 +21,20 @@ static insole_status_t refuse(insole_auto_start_t *start, insole_status_t why)
     return why;
 }
 
+insole_status_t insole_auto_start_check(const insole_auto_start_config_t *config)
+{
+    typedef insole_auto_start_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_AUTO_START_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_auto_start_init(insole_auto_start_t *start,
                                        const insole_auto_start_config_t *config)
 {
     if (!start || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_AUTO_START_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_auto_start_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(start, 0, sizeof *start);

@@ -18,12 +18,19 @@ static insole_status_t refuse(insole_ml_shift_t *ml, insole_status_t why)
     return why;
 }
 
+static insole_status_t check(const insole_ml_shift_config_t *config)
+{
+    typedef insole_ml_shift_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_ML_SHIFT_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_ml_shift_init(insole_ml_shift_t *ml, const insole_ml_shift_config_t *config)
 {
     if (!ml || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_ML_SHIFT_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(ml, 0, sizeof *ml);

@@ -27,15 +27,18 @@ const insole_particle_filter_config_t insole_particle_filter_phone_wpf =
 const insole_particle_filter_config_t insole_particle_filter_phone_zee =
     INSOLE_PARTICLE_FILTER_PHONE_ZEE;
 
+static insole_status_t check_own(const insole_particle_filter_config_t *config)
+{
+    typedef insole_particle_filter_config_t config_t;
+    static const insole_config_range_t ranges[] = {
+        INSOLE_PARTICLE_FILTER_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_particle_config_check(const insole_particle_filter_config_t *config)
 {
-    if (!config) {
-        return INSOLE_ERR_NULL;
-    }
-    if (!(true INSOLE_PARTICLE_FILTER_KEYS(INSOLE_CONFIG_IN_RANGE))) {
-        return INSOLE_ERR_VALUE;
-    }
-    return insole_rss_field_check(&config->field);
+    insole_status_t status = check_own(config);
+    return status == INSOLE_OK ? insole_rss_field_check(&config->field) : status;
 }
 
 /* A 1-sigma with variances added to it; as it is, to the bit, when there are none. */

@@ -33,9 +33,16 @@ static insole_status_t refuse(insole_step_cloud_t *cloud, insole_status_t why)
     return why;
 }
 
+static insole_status_t check_own(const insole_step_cloud_config_t *config)
+{
+    typedef insole_step_cloud_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_STEP_CLOUD_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 static insole_status_t check(const insole_step_cloud_config_t *config, const insole_cloud_t *memory)
 {
-    if (!(true INSOLE_STEP_CLOUD_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (check_own(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     insole_status_t status = insole_cloud_check(memory);

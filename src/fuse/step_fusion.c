@@ -19,13 +19,20 @@ static insole_status_t refuse(insole_step_fusion_t *fusion, insole_status_t why)
     return why;
 }
 
+static insole_status_t check(const insole_step_fusion_config_t *config)
+{
+    typedef insole_step_fusion_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_STEP_FUSION_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_step_fusion_init(insole_step_fusion_t *fusion,
                                         const insole_step_fusion_config_t *config)
 {
     if (!fusion || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_STEP_FUSION_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(fusion, 0, sizeof *fusion);

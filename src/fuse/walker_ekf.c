@@ -25,13 +25,20 @@ static insole_status_t refuse(insole_walker_ekf_t *walker, insole_status_t why)
     return why;
 }
 
+static insole_status_t check(const insole_walker_ekf_config_t *config)
+{
+    typedef insole_walker_ekf_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_WALKER_EKF_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_walker_ekf_init(insole_walker_ekf_t *walker,
                                        const insole_walker_ekf_config_t *config)
 {
     if (!walker || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_WALKER_EKF_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(walker, 0, sizeof *walker);

@@ -39,12 +39,19 @@ static bool is_within(insole_vec3_t v, insole_real_t limit)
     return insole_vec3_is_finite(v) && insole_vec3_max_abs(v) <= limit;
 }
 
+insole_status_t insole_attitude_check(const insole_attitude_config_t *config)
+{
+    typedef insole_attitude_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_ATTITUDE_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_attitude_init(insole_attitude_t *att, const insole_attitude_config_t *config)
 {
     if (!att || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_ATTITUDE_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_attitude_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(att, 0, sizeof *att);

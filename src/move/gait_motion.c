@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "insole/base/slot.h"
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -23,6 +25,11 @@ insole_status_t insole_gait_motion_init(insole_gait_motion_t *motion)
 
 /* ---- samples ---------------------------------------------------------------------------- */
 
+static uint64_t slot_of(uint64_t t_us)
+{
+    return insole_slot_of(t_us, INSOLE_GAIT_SLOT_US);
+}
+
 static uint32_t place_of(uint64_t number)
 {
     return (uint32_t)number & (SLOTS - 1u);
@@ -31,13 +38,14 @@ static uint32_t place_of(uint64_t number)
 /* Empties the slots that time has passed over. */
 static void open_slots(insole_gait_motion_t *motion, uint64_t newest)
 {
-    uint64_t last = motion->t_us / SLOT_US, over = newest - last;
+    uint64_t last = motion->newest, over = newest - last;
     uint32_t count = motion->has_time && over < (uint64_t)SLOTS ? (uint32_t)over : SLOTS;
     insole_gait_slot_t empty = {insole_vec3_zero(), motion->slots[place_of(last)].facing};
     for (uint32_t i = 0u; i < count; i++) {
         motion->slots[place_of(newest - i)] = empty;
         motion->counts[place_of(newest - i)] = 0u;
     }
+    motion->newest = newest;
 }
 
 insole_status_t insole_gait_motion_push(insole_gait_motion_t *motion, insole_vec3_t force_mps2,
@@ -54,10 +62,10 @@ insole_status_t insole_gait_motion_push(insole_gait_motion_t *motion, insole_vec
     if (motion->has_time && t_us <= motion->t_us) {
         return INSOLE_ERR_TIME;
     }
-    open_slots(motion, t_us / SLOT_US);
+    open_slots(motion, slot_of(t_us));
     motion->has_time = true;
     motion->t_us = t_us;
-    uint32_t at = place_of(t_us / SLOT_US);
+    uint32_t at = place_of(motion->newest);
     motion->slots[at].facing = *facing;
     if (motion->counts[at] < MOST_SAMPLES) {
         motion->slots[at].sum_mps2 = insole_vec3_add(motion->slots[at].sum_mps2, force_mps2);
@@ -70,13 +78,13 @@ insole_status_t insole_gait_motion_push(insole_gait_motion_t *motion, insole_vec
 
 static bool is_remembered(const insole_gait_motion_t *motion, uint64_t number)
 {
-    uint64_t newest = motion->t_us / SLOT_US;
-    return motion->has_time && number <= newest && newest - number < (uint64_t)SLOTS;
+    return motion->has_time && number <= motion->newest &&
+           motion->newest - number < (uint64_t)SLOTS;
 }
 
 bool insole_gait_motion_reaches(const insole_gait_motion_t *motion, uint64_t t_us)
 {
-    return motion && is_remembered(motion, t_us / SLOT_US);
+    return motion && is_remembered(motion, slot_of(t_us));
 }
 
 /* Mean of a slot and its neighbours. @return false when it is forgotten, or they are empty */
@@ -114,7 +122,7 @@ static insole_real_t mean_facing(const insole_gait_motion_t *motion, const span_
                                  uint32_t steps)
 {
     insole_real_t last = turned_at(motion, span->end - 1u), sum = ZERO;
-    uint64_t length = (span->end - span->first) / steps;
+    uint32_t length = (uint32_t)(span->end - span->first) / steps;
     length = length > 0u ? length : 1u;
     for (uint64_t k = span->end - length; k < span->end; k++) {
         sum += insole_wrap_pi(turned_at(motion, k) - last);
@@ -124,8 +132,8 @@ static insole_real_t mean_facing(const insole_gait_motion_t *motion, const span_
 
 static span_t span_of(const insole_gait_motion_t *motion, const insole_gait_window_t *window)
 {
-    span_t span = {window->begin_us / SLOT_US, (window->end_us - 1u) / SLOT_US + 1u, ZERO, ZERO};
-    span.weight = ONE / (insole_real_t)(span.end - span.first);
+    span_t span = {slot_of(window->begin_us), slot_of(window->end_us - 1u) + 1u, ZERO, ZERO};
+    span.weight = ONE / (insole_real_t)(uint32_t)(span.end - span.first);
     span.facing_rad = mean_facing(motion, &span, window->steps);
     return span;
 }

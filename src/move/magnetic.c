@@ -26,13 +26,20 @@ static bool is_field(insole_vec3_t v)
     return insole_vec3_is_finite(v) && insole_vec3_max_abs(v) <= MOST_UT;
 }
 
+insole_status_t insole_magnetic_check(const insole_magnetic_config_t *config)
+{
+    typedef insole_magnetic_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_MAGNETIC_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_magnetic_init(insole_magnetic_t *magnetic,
                                      const insole_magnetic_config_t *config)
 {
     if (!magnetic || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_MAGNETIC_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_magnetic_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(magnetic, 0, sizeof *magnetic);

@@ -46,13 +46,20 @@ static insole_real_t by_model(const insole_step_length_config_t *config,
     }
 }
 
+insole_status_t insole_step_length_check(const insole_step_length_config_t *config)
+{
+    typedef insole_step_length_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_STEP_LENGTH_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_step_length(const insole_step_length_config_t *config,
                                    const insole_footfall_t *footfall, insole_real_t *length_m)
 {
     if (!config || !footfall || !length_m) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_STEP_LENGTH_KEYS(INSOLE_CONFIG_IN_RANGE)) ||
+    if (insole_step_length_check(config) != INSOLE_OK ||
         !(footfall->range_mps2 >= ZERO && footfall->range_mps2 <= LARGEST_MPS2) ||
         !(footfall->accel_sigma_mps2 >= ZERO && footfall->accel_sigma_mps2 <= LARGEST_MPS2)) {
         return INSOLE_ERR_VALUE;

@@ -9,13 +9,20 @@
 
 const insole_stride_config_t insole_stride_defaults = {INSOLE_STRIDE_KEYS(INSOLE_CONFIG_DEFAULT)};
 
+insole_status_t insole_stride_check(const insole_stride_config_t *config)
+{
+    typedef insole_stride_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_STRIDE_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_stride_init(insole_stride_counter_t *counter,
                                    const insole_stride_config_t *config)
 {
     if (!counter || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_STRIDE_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_stride_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(counter, 0, sizeof *counter);

@@ -25,13 +25,20 @@ static insole_status_t refuse(insole_walk_heading_t *walk, insole_status_t why)
     return why;
 }
 
+static insole_status_t check(const insole_walk_heading_config_t *config)
+{
+    typedef insole_walk_heading_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_WALK_HEADING_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_walk_heading_init(insole_walk_heading_t *walk,
                                          const insole_walk_heading_config_t *config)
 {
     if (!walk || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_WALK_HEADING_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(walk, 0, sizeof *walk);

@@ -55,12 +55,19 @@ static void begin_trace(insole_zupt_ekf_t *ekf, insole_zupt_step_t step)
     ekf->trace.height_var_m2 = ZERO;
 }
 
+insole_status_t insole_zupt_ekf_check(const insole_zupt_ekf_config_t *config)
+{
+    typedef insole_zupt_ekf_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf, const insole_zupt_ekf_config_t *config)
 {
     if (!ekf || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_zupt_ekf_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(ekf, 0, sizeof *ekf);
@@ -332,7 +339,7 @@ insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf, insole_vec3_t velo
         return refuse(ekf, INSOLE_ERR_VALUE);
     }
     insole_zupt_cov_t *P = &ekf->P;
-    insole_real_t dt = (insole_real_t)(t_us - ekf->t_us) * INSOLE_R(1.0e-6);
+    insole_real_t dt = insole_seconds(ekf->t_us, t_us);
     if (ekf->trace.step != INSOLE_ZUPT_STEP_COAST) {
         forget_motion(P);
         P->vv = insole_sym3_add_diagonal(P->vv, insole_square(sigma_mps));

@@ -24,12 +24,19 @@ static insole_real_t bend(const insole_kde_fix_config_t *config, uint32_t level)
     return share > ZERO ? insole_exp(config->power * insole_log(share)) : ZERO;
 }
 
+static insole_status_t check(const insole_kde_fix_config_t *config)
+{
+    typedef insole_kde_fix_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_KDE_FIX_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_kde_fix_init(insole_kde_fix_t *kde, const insole_kde_fix_config_t *config)
 {
     if (!kde || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_KDE_FIX_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     *kde = (insole_kde_fix_t){.config = *config};

@@ -20,12 +20,19 @@ static insole_real_t bell(const insole_ml_fix_config_t *config, insole_real_t of
     return insole_exp(-HALF * insole_square(off_db / config->sigma_db));
 }
 
+static insole_status_t check(const insole_ml_fix_config_t *config)
+{
+    typedef insole_ml_fix_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_ML_FIX_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_ml_fix_init(insole_ml_fix_t *ml, const insole_ml_fix_config_t *config)
 {
     if (!ml || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_ML_FIX_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     *ml = (insole_ml_fix_t){.config = *config};

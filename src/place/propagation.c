@@ -14,10 +14,9 @@ const insole_propagation_config_t insole_propagation_defaults = {
 
 insole_status_t insole_propagation_check(const insole_propagation_config_t *config)
 {
-    if (!config) {
-        return INSOLE_ERR_NULL;
-    }
-    return (true INSOLE_PROPAGATION_KEYS(INSOLE_CONFIG_IN_RANGE)) ? INSOLE_OK : INSOLE_ERR_VALUE;
+    typedef insole_propagation_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_PROPAGATION_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
 /* What is lost on the way but for the distance. */

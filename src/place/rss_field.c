@@ -25,10 +25,9 @@ const insole_rss_field_config_t insole_rss_field_defaults = {
 
 insole_status_t insole_rss_field_check(const insole_rss_field_config_t *config)
 {
-    if (!config) {
-        return INSOLE_ERR_NULL;
-    }
-    return (true INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_IN_RANGE)) ? INSOLE_OK : INSOLE_ERR_VALUE;
+    typedef insole_rss_field_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_RSS_FIELD_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
 insole_status_t insole_rss_field_init(insole_rss_field_t *field,

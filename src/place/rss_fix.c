@@ -15,10 +15,9 @@ const insole_rss_fix_config_t insole_rss_fix_defaults = {
 
 insole_status_t insole_rss_fix_check(const insole_rss_fix_config_t *config)
 {
-    if (!config) {
-        return INSOLE_ERR_NULL;
-    }
-    return (true INSOLE_RSS_FIX_KEYS(INSOLE_CONFIG_IN_RANGE)) ? INSOLE_OK : INSOLE_ERR_VALUE;
+    typedef insole_rss_fix_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_RSS_FIX_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
 typedef struct {

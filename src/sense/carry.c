@@ -7,12 +7,19 @@
 
 const insole_carry_config_t insole_carry_defaults = {INSOLE_CARRY_KEYS(INSOLE_CONFIG_DEFAULT)};
 
+static insole_status_t check(const insole_carry_config_t *config)
+{
+    typedef insole_carry_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_CARRY_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_carry_init(insole_carry_t *carry, const insole_carry_config_t *config)
 {
     if (!carry || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_CARRY_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(carry, 0, sizeof *carry);

@@ -112,12 +112,12 @@ static void begin(insole_carry_window_t *w, uint64_t t_us, const insole_carry_po
 static void fill_grid(insole_carry_window_t *w, uint64_t t_us, const insole_carry_point_t *sample,
                       const insole_vec3_t *up)
 {
-    insole_real_t per_us = ONE / (insole_real_t)(t_us - w->t_us);
+    insole_real_t per_us = ONE / (insole_real_t)(uint32_t)(t_us - w->t_us);
     insole_vec3_t way = insole_vec3_sub(w->newest.accel, sample->accel);
     insole_vec3_t turn = insole_vec3_sub(w->newest.gyro, sample->gyro);
     while (t_us - w->grid_us >= INSOLE_CARRY_GRID_US) {
         w->grid_us += INSOLE_CARRY_GRID_US;
-        insole_real_t back = (insole_real_t)(t_us - w->grid_us) * per_us;
+        insole_real_t back = (insole_real_t)(uint32_t)(t_us - w->grid_us) * per_us;
         insole_carry_point_t point = {insole_vec3_add_scaled(sample->accel, back, way),
                                       insole_vec3_add_scaled(sample->gyro, back, turn),
                                       sample->has_gyro && w->newest.has_gyro};

@@ -30,9 +30,11 @@ static const insole_real_t INTERVAL_SHARE = INSOLE_R(0.98);
 
 const insole_screen_config_t insole_screen_defaults = {INSOLE_SCREEN_KEYS(INSOLE_CONFIG_DEFAULT)};
 
-static uint32_t microseconds(insole_real_t s)
+insole_status_t insole_screen_check(const insole_screen_config_t *config)
 {
-    return (uint32_t)(s * INSOLE_R(1.0e6) + INSOLE_R(0.5));
+    typedef insole_screen_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_SCREEN_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
 insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_config_t *config)
@@ -40,14 +42,14 @@ insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_
     if (!screen || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_SCREEN_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_screen_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(screen, 0, sizeof *screen);
     screen->config = *config;
-    screen->gap_us = microseconds(config->gap_s);
-    screen->hold_us = microseconds(config->hold_s);
-    screen->least_us = microseconds(INTERVAL_SHARE / config->max_rate_hz);
+    screen->gap_us = insole_microseconds(config->gap_s);
+    screen->hold_us = insole_microseconds(config->hold_s);
+    screen->least_us = insole_microseconds(INTERVAL_SHARE / config->max_rate_hz);
     return insole_gyro_clip_init(&screen->clip, config->gyro_range_radps, config->clip_share);
 }
 
@@ -312,7 +314,7 @@ static insole_status_t average(insole_screen_t *s, const insole_clean_t *c, inso
     if (s->sum_count == 0u && since_us >= s->least_us) {
         return give(s, c, clean);
     }
-    insole_real_t weight_s = (insole_real_t)since_us * INSOLE_R(1.0e-6) - s->sum_s;
+    insole_real_t weight_s = insole_seconds(0u, since_us) - s->sum_s;
     sum_add(s, c, insole_max(weight_s, INSOLE_R(1.0e-6)));
     if (since_us < s->least_us) {
         s->counts.averaged++;

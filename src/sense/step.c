@@ -23,12 +23,19 @@ static void clear_span(insole_step_span_t *span)
     *span = nothing;
 }
 
+insole_status_t insole_step_check(const insole_step_config_t *config)
+{
+    typedef insole_step_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_STEP_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_step_init(insole_step_counter_t *counter, const insole_step_config_t *config)
 {
     if (!counter || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_STEP_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_step_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(counter, 0, sizeof *counter);

@@ -14,18 +14,25 @@ static const insole_real_t GRAVITY_SPREAD_MPS2 = INSOLE_R(0.5);
 const insole_still_bias_config_t insole_still_bias_defaults = {
     INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_DEFAULT)};
 
+insole_status_t insole_still_bias_check(const insole_still_bias_config_t *config)
+{
+    typedef insole_still_bias_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
                                        const insole_still_bias_config_t *config)
 {
     if (!rest || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_still_bias_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(rest, 0, sizeof *rest);
     rest->config = *config;
-    rest->block_us = (uint32_t)(config->block_s * INSOLE_R(1.0e6) + INSOLE_R(0.5));
+    rest->block_us = insole_microseconds(config->block_s);
     rest->gravity_mps2 = config->gravity_mps2;
     insole_real_t variance = insole_square(config->sigma_bias_radps);
     rest->variance_radps2 = insole_vec3(variance, variance, variance);
@@ -108,7 +115,7 @@ static void learn_bias(insole_still_bias_t *rest, insole_vec3_t measured, insole
 
 static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
 {
-    insole_real_t since_s = (insole_real_t)(rest->last_us - rest->first_us) * INSOLE_R(1.0e-6);
+    insole_real_t since_s = insole_seconds(rest->first_us, rest->last_us);
     insole_real_t g = insole_vec3_norm(mean_accel);
     if (since_s > rest->config.gravity_s ||
         insole_abs(g - rest->config.gravity_mps2) > GRAVITY_SPREAD_MPS2) {

@@ -23,9 +23,11 @@ static const uint32_t LONGEST_INTERVAL_US = 50000u; /* of a rate that is worth m
 const insole_zero_velocity_config_t insole_zero_velocity_defaults = {
     INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_DEFAULT)};
 
-static uint32_t microseconds(insole_real_t s)
+insole_status_t insole_zero_velocity_check(const insole_zero_velocity_config_t *config)
 {
-    return (uint32_t)(s * INSOLE_R(1.0e6) + INSOLE_R(0.5));
+    typedef insole_zero_velocity_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
 insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
@@ -34,16 +36,16 @@ insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
     if (!zv || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_zero_velocity_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(zv, 0, sizeof *zv);
     zv->config = *config;
     zv->ring = insole_ring(INSOLE_STANCE_RING);
-    zv->reach_us = microseconds(config->reach_s);
+    zv->reach_us = insole_microseconds(config->reach_s);
     zv->past_us = zv->reach_us / (INSOLE_STANCE_PAST - 1u);
-    zv->spread_us = microseconds(config->spread_s);
-    zv->hole_us = microseconds(config->two_step_hole_s);
+    zv->spread_us = insole_microseconds(config->spread_s);
+    zv->hole_us = insole_microseconds(config->two_step_hole_s);
     zv->period_s = FIRST_PERIOD_S;
     zv->usual_log = insole_log(config->plain_threshold);
     for (uint32_t i = 0u; i < INSOLE_STANCE_PAST; i++) {

@@ -8,29 +8,11 @@ const insole_foot_tracker_config_t insole_foot_tracker_defaults = {
     {INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_DEFAULT)},
     {INSOLE_STRIDE_KEYS(INSOLE_CONFIG_DEFAULT)}};
 
-static bool is_screen_in_range(const insole_screen_config_t *config)
+static insole_status_t check_own(const insole_foot_tracker_config_t *config)
 {
-    return true INSOLE_SCREEN_KEYS(INSOLE_CONFIG_IN_RANGE);
-}
-
-static bool is_still_bias_in_range(const insole_still_bias_config_t *config)
-{
-    return true INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_IN_RANGE);
-}
-
-static bool is_zero_velocity_in_range(const insole_zero_velocity_config_t *config)
-{
-    return true INSOLE_ZERO_VELOCITY_KEYS(INSOLE_CONFIG_IN_RANGE);
-}
-
-static bool is_zupt_ekf_in_range(const insole_zupt_ekf_config_t *config)
-{
-    return true INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_IN_RANGE);
-}
-
-static bool is_stride_in_range(const insole_stride_config_t *config)
-{
-    return true INSOLE_STRIDE_KEYS(INSOLE_CONFIG_IN_RANGE);
+    typedef insole_foot_tracker_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_FOOT_TRACKER_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
 insole_status_t insole_foot_config_check(const insole_foot_tracker_config_t *config)
@@ -38,10 +20,11 @@ insole_status_t insole_foot_config_check(const insole_foot_tracker_config_t *con
     if (!config) {
         return INSOLE_ERR_NULL;
     }
-    bool own = true INSOLE_FOOT_TRACKER_KEYS(INSOLE_CONFIG_IN_RANGE);
-    bool parts = is_screen_in_range(&config->screen) &&
-                 is_still_bias_in_range(&config->still_bias) &&
-                 is_zero_velocity_in_range(&config->zero_velocity) &&
-                 is_zupt_ekf_in_range(&config->zupt_ekf) && is_stride_in_range(&config->stride);
-    return own && parts ? INSOLE_OK : INSOLE_ERR_VALUE;
+    bool all = check_own(config) == INSOLE_OK &&
+               insole_screen_check(&config->screen) == INSOLE_OK &&
+               insole_still_bias_check(&config->still_bias) == INSOLE_OK &&
+               insole_zero_velocity_check(&config->zero_velocity) == INSOLE_OK &&
+               insole_zupt_ekf_check(&config->zupt_ekf) == INSOLE_OK &&
+               insole_stride_check(&config->stride) == INSOLE_OK;
+    return all ? INSOLE_OK : INSOLE_ERR_VALUE;
 }

@@ -16,23 +16,25 @@ const insole_foot_fusion_config_t insole_foot_fusion_defaults = {
     {INSOLE_RSS_FIX_KEYS(INSOLE_CONFIG_DEFAULT)},
     {INSOLE_RANGE_FIX_KEYS(INSOLE_CONFIG_DEFAULT)}};
 
+static insole_status_t check_own(const insole_foot_fusion_config_t *config)
+{
+    typedef insole_foot_fusion_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_fusion_config_check(const insole_foot_fusion_config_t *config)
 {
     if (!config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_IN_RANGE))) {
-        return INSOLE_ERR_VALUE;
-    }
-    const insole_status_t parts[] = {
-        insole_foot_config_check(&config->foot), insole_particle_config_check(&config->particles),
-        insole_particle_config_check(&config->two_order), insole_rss_fix_check(&config->rss_fix),
-        insole_range_fix_check(&config->range_fix)};
-    insole_status_t status = INSOLE_OK;
-    for (uint32_t i = 0u; i < sizeof parts / sizeof parts[0]; i++) {
-        status = status == INSOLE_OK ? parts[i] : status;
-    }
-    return status;
+    bool all = check_own(config) == INSOLE_OK &&
+               insole_foot_config_check(&config->foot) == INSOLE_OK &&
+               insole_particle_config_check(&config->particles) == INSOLE_OK &&
+               insole_particle_config_check(&config->two_order) == INSOLE_OK &&
+               insole_rss_fix_check(&config->rss_fix) == INSOLE_OK &&
+               insole_range_fix_check(&config->range_fix) == INSOLE_OK;
+    return all ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 
 insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,

@@ -13,13 +13,20 @@ static const insole_real_t LONGEST_SUM = INSOLE_R(1.0e5);
 
 static const insole_turn_t nothing = {ZERO, ZERO};
 
+insole_status_t insole_phone_compass_check(const insole_phone_compass_config_t *config)
+{
+    typedef insole_phone_compass_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_PHONE_COMPASS_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_phone_compass_init(insole_phone_compass_t *compass,
                                           const insole_phone_compass_config_t *config)
 {
     if (!compass || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (!(true INSOLE_PHONE_COMPASS_KEYS(INSOLE_CONFIG_IN_RANGE))) {
+    if (insole_phone_compass_check(config) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     memset(compass, 0, sizeof *compass);

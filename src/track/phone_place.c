@@ -21,6 +21,13 @@ static bool is_whole(const insole_step_filter_t *filter)
     return calls && filter->state && calls->start && calls->step && calls->fix && calls->answer;
 }
 
+insole_status_t insole_phone_place_check(const insole_phone_place_config_t *config)
+{
+    typedef insole_phone_place_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_PHONE_PLACE_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
 insole_status_t insole_phone_place_init(insole_phone_place_t *place,
                                         const insole_phone_place_config_t *config,
                                         const insole_auto_start_config_t *config_start,
@@ -30,7 +37,7 @@ insole_status_t insole_phone_place_init(insole_phone_place_t *place,
         return INSOLE_ERR_NULL;
     }
     insole_auto_start_t auto_start;
-    if (!(true INSOLE_PHONE_PLACE_KEYS(INSOLE_CONFIG_IN_RANGE)) || !is_whole(filter) ||
+    if (insole_phone_place_check(config) != INSOLE_OK || !is_whole(filter) ||
         insole_auto_start_init(&auto_start, config_start) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }

@@ -18,14 +18,11 @@ static const uint64_t LONGEST_STEP_US = 1000000u;
 static const insole_phone_lie_t ahead = {
     .askew = {ONE, ZERO}, .position = INSOLE_PHONE_NO_POSITION, .length = ONE, .rise = ONE};
 
-static bool is_step_in_range(const insole_step_config_t *config)
+static insole_status_t check_own(const insole_phone_walk_config_t *config)
 {
-    return true INSOLE_STEP_KEYS(INSOLE_CONFIG_IN_RANGE);
-}
-
-static bool is_length_in_range(const insole_step_length_config_t *config)
-{
-    return true INSOLE_STEP_LENGTH_KEYS(INSOLE_CONFIG_IN_RANGE);
+    typedef insole_phone_walk_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_PHONE_WALK_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
 insole_status_t insole_phone_walk_check(const insole_phone_walk_config_t *config)
@@ -33,9 +30,9 @@ insole_status_t insole_phone_walk_check(const insole_phone_walk_config_t *config
     if (!config) {
         return INSOLE_ERR_NULL;
     }
-    bool own = true INSOLE_PHONE_WALK_KEYS(INSOLE_CONFIG_IN_RANGE);
-    bool parts = is_step_in_range(&config->step) && is_length_in_range(&config->step_length);
-    return own && parts ? INSOLE_OK : INSOLE_ERR_VALUE;
+    bool all = check_own(config) == INSOLE_OK && insole_step_check(&config->step) == INSOLE_OK &&
+               insole_step_length_check(&config->step_length) == INSOLE_OK;
+    return all ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 
 insole_status_t insole_phone_walk_init(insole_phone_walk_t *walk,

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "insole/base/divide.h"
+#include "insole/base/slot.h"
 
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
@@ -32,7 +32,7 @@ static bool has_slots(const insole_phone_way_t *way)
 
 static uint64_t slot_of(uint64_t t_us)
 {
-    return insole_divide(t_us, INSOLE_PHONE_WAY_SLOT_US) + 1u; /* 0 means none */
+    return insole_slot_of(t_us / 2u, INSOLE_PHONE_WAY_SLOT_US / 2u) + 1u; /* 0 means none */
 }
 
 /* `back` = 0 is the newest. */

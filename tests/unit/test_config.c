@@ -20,9 +20,18 @@ typedef struct {
 
 static const lamp_config_t LAMP_DEFAULTS = {LAMP_KEYS(INSOLE_CONFIG_DEFAULT)};
 
+typedef lamp_config_t config_t;
+static const insole_config_range_t RANGES[] = {LAMP_KEYS(INSOLE_CONFIG_RANGE)};
+enum { KEYS = sizeof RANGES / sizeof RANGES[0] };
+
+/* The settings stay as they are, whatever is said of them. */
 static bool lamp_in_range(const lamp_config_t *config)
 {
-    return true LAMP_KEYS(INSOLE_CONFIG_IN_RANGE);
+    const lamp_config_t before = *config;
+    insole_status_t status = insole_config_check(config, RANGES, KEYS);
+    ck_assert_mem_eq(config, &before, sizeof before);
+    ck_assert(status == INSOLE_OK || status == INSOLE_ERR_VALUE);
+    return status == INSOLE_OK;
 }
 
 START_TEST(the_struct_has_the_listed_members_in_order)
@@ -43,6 +52,24 @@ START_TEST(the_defaults_are_the_listed_ones)
     ck_assert_int_eq(LAMP_DEFAULTS.colour, 1);
     ASSERT_NEAR(LAMP_DEFAULTS.drift, INSOLE_R(-1.5), 0.0, "");
     ck_assert(lamp_in_range(&LAMP_DEFAULTS));
+}
+END_TEST
+
+START_TEST(the_table_tells_where_each_is_and_what_it_may_be)
+{
+    const insole_config_range_t expected[] = {
+        {INSOLE_R(0.05), INSOLE_R(2.0), (uint16_t)offsetof(lamp_config_t, glow_s), false},
+        {INSOLE_R(-4.0), INSOLE_R(70000.0), (uint16_t)offsetof(lamp_config_t, blinks), true},
+        {INSOLE_R(0.0), INSOLE_R(2.0), (uint16_t)offsetof(lamp_config_t, colour), true},
+        {INSOLE_R(-2.0), INSOLE_R(-1.0), (uint16_t)offsetof(lamp_config_t, drift), false},
+    };
+    ck_assert_int_eq(KEYS, 4);
+    for (int i = 0; i < KEYS; i++) {
+        ASSERT_NEAR(RANGES[i].low, expected[i].low, 0.0, "");
+        ASSERT_NEAR(RANGES[i].high, expected[i].high, 0.0, "");
+        ck_assert_uint_eq(RANGES[i].offset, expected[i].offset);
+        ck_assert_int_eq(RANGES[i].is_whole, expected[i].is_whole);
+    }
 }
 END_TEST
 
@@ -87,6 +114,41 @@ START_TEST(whole_numbers_have_closed_ranges)
 }
 END_TEST
 
+/* A real holds the ends of a whole number, yet not its every value: no neighbour slips through. */
+START_TEST(the_largest_whole_ends_are_exact)
+{
+    typedef struct {
+        int32_t count;
+    } tally_t;
+    const int32_t most = (1 << 24) - 1;
+    const insole_config_range_t range = {-(insole_real_t)most, (insole_real_t)most, 0u, true};
+    for (int32_t off = -3; off <= 3; off++) {
+        tally_t high = {most + off}, low = {-most - off};
+        insole_status_t expected = off <= 0 ? INSOLE_OK : INSOLE_ERR_VALUE;
+        ck_assert_msg(insole_config_check(&high, &range, 1u) == expected, "most + %d", off);
+        ck_assert_msg(insole_config_check(&low, &range, 1u) == expected, "least - %d", off);
+    }
+}
+END_TEST
+
+START_TEST(nothing_is_refused)
+{
+    ck_assert_int_eq(insole_config_check(NULL, RANGES, KEYS), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_config_check(&LAMP_DEFAULTS, NULL, KEYS), INSOLE_ERR_NULL);
+}
+END_TEST
+
+START_TEST(as_many_rows_count_as_are_told)
+{
+    lamp_config_t config = LAMP_DEFAULTS;
+    config.colour = 3;
+    ck_assert_int_eq(insole_config_check(&config, RANGES, 0u), INSOLE_OK);
+    ck_assert_int_eq(insole_config_check(&config, RANGES, 2u), INSOLE_OK);
+    ck_assert_int_eq(insole_config_check(&config, RANGES, 3u), INSOLE_ERR_VALUE);
+    ck_assert_int_eq(insole_config_check(&config, RANGES + 3, 1u), INSOLE_OK);
+}
+END_TEST
+
 /* One member out of range is enough, whichever it is; all members count. */
 START_TEST(every_member_is_checked)
 {
@@ -122,6 +184,10 @@ Suite *insole_suite(void)
     suite_add(suite, "defaults", the_defaults_are_the_listed_ones);
     suite_add(suite, "real ranges", real_settings_have_closed_ranges);
     suite_add(suite, "whole ranges", whole_numbers_have_closed_ranges);
+    suite_add(suite, "table", the_table_tells_where_each_is_and_what_it_may_be);
+    suite_add(suite, "largest whole ends", the_largest_whole_ends_are_exact);
+    suite_add(suite, "NULL", nothing_is_refused);
+    suite_add(suite, "count", as_many_rows_count_as_are_told);
     suite_add(suite, "every member", every_member_is_checked);
     suite_add(suite, "other tables", the_list_serves_for_more);
     return suite;

@@ -116,6 +116,11 @@ END_TEST
 START_TEST(nothing_is_refused)
 {
     ck_assert_int_eq(insole_foot_config_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_screen_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_still_bias_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_zero_velocity_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_zupt_ekf_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_stride_check(NULL), INSOLE_ERR_NULL);
 }
 END_TEST
 

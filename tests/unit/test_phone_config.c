@@ -189,6 +189,13 @@ END_TEST
 START_TEST(nothing_is_refused)
 {
     ck_assert_int_eq(insole_phone_config_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_attitude_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_magnetic_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_step_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_step_length_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_phone_compass_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_auto_start_check(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_phone_place_check(NULL), INSOLE_ERR_NULL);
 }
 END_TEST
 

@@ -16,7 +16,10 @@
 #ifndef INSOLE_BASE_CONFIG_H
 #define INSOLE_BASE_CONFIG_H
 
+#include <stddef.h>
+
 #include "insole/base/real.h"
+#include "insole/base/status.h"
 
 #define INSOLE_CONFIG_TYPE_REAL   insole_real_t
 #define INSOLE_CONFIG_TYPE_INT    int32_t
@@ -34,9 +37,44 @@
 #define INSOLE_CONFIG_DEFAULT(kind, name, value, low, high, unit, text)                            \
     INSOLE_CONFIG_LITERAL_##kind(value),
 
-/** `&& in range`, for a check of the struct that `config` points at; not-a-number is outside. */
-#define INSOLE_CONFIG_IN_RANGE(kind, name, value, low, high, unit, text)                           \
-    &&config->name >= INSOLE_CONFIG_LITERAL_##kind(low) &&                                         \
-        config->name <= INSOLE_CONFIG_LITERAL_##kind(high)
+/** A row of the table of ranges; `config_t` is the struct. */
+#define INSOLE_CONFIG_RANGE(kind, name, value, low, high, unit, text)                              \
+    {(insole_real_t)(INSOLE_CONFIG_LITERAL_##kind(low)),                                           \
+     (insole_real_t)(INSOLE_CONFIG_LITERAL_##kind(high)), (uint16_t)offsetof(config_t, name),      \
+     INSOLE_CONFIG_IS_WHOLE_##kind},
+
+#define INSOLE_CONFIG_IS_WHOLE_REAL   false
+#define INSOLE_CONFIG_IS_WHOLE_INT    true
+#define INSOLE_CONFIG_IS_WHOLE_CHOICE true
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Where a setting lies in its struct, and what it may be. Ends of whole numbers are less than
+ *  2^24, so that a real tells them from their neighbours. */
+typedef struct {
+    insole_real_t low, high;
+    uint16_t offset;
+    bool is_whole;
+} insole_config_range_t;
+
+/** Are all settings in their ranges? Not-a-number is outside of any.
+ *
+ *      insole_status_t insole_stride_check(const insole_stride_config_t *config)
+ *      {
+ *          typedef insole_stride_config_t config_t;
+ *          static const insole_config_range_t ranges[] = {INSOLE_STRIDE_KEYS(INSOLE_CONFIG_RANGE)};
+ *          return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+ *      }
+ *
+ *  @param config  the struct that the table is of
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_config_check(const void *config, const insole_config_range_t *ranges,
+                                    size_t count);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -15,8 +15,15 @@
 /** From one time stamp to a later one. */
 static inline insole_real_t insole_seconds(uint64_t from_us, uint64_t to_us)
 {
-    uint64_t us = to_us - from_us; /* half of it is converted faster, and is usual */
-    return (us <= UINT32_MAX ? (insole_real_t)(uint32_t)us : (insole_real_t)us) * INSOLE_R(1.0e-6);
+    uint64_t us = to_us - from_us; /* in halves, each of which a processor converts */
+    insole_real_t most_us = (insole_real_t)(uint32_t)(us >> 32) * INSOLE_R(4294967296.0);
+    return (most_us + (insole_real_t)(uint32_t)us) * INSOLE_R(1.0e-6);
+}
+
+/** Rounded, of a time from 0 to an hour. */
+static inline uint32_t insole_microseconds(insole_real_t s)
+{
+    return (uint32_t)(s * INSOLE_R(1.0e6) + INSOLE_R(0.5));
 }
 
 /** A place on the map, or a way on it. */

@@ -63,6 +63,9 @@ typedef struct {
 
 extern const insole_auto_start_config_t insole_auto_start_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_auto_start_check(const insole_auto_start_config_t *config);
+
 enum { INSOLE_AUTO_START_MOVED = 0, INSOLE_AUTO_START_CIRCLES = 1 };
 
 /** A row of the least squares: of ones, ways and fixes; or what the past makes expect of them. */

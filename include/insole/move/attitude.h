@@ -70,6 +70,9 @@ typedef struct {
 
 extern const insole_attitude_config_t insole_attitude_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_attitude_check(const insole_attitude_config_t *config);
+
 /** A vector that is known in n, and how it looks from the estimated attitude. */
 typedef struct {
     insole_vec3_t known, seen; /**< n; seen = R times what the sensor tells */

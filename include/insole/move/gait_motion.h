@@ -51,6 +51,7 @@ typedef struct {
 typedef struct {
     bool has_time;
     uint64_t t_us;                               /**< of the newest sample */
+    uint64_t newest;                             /**< number of its slot */
     insole_gait_slot_t slots[INSOLE_GAIT_SLOTS]; /**< at slot number mod 128 */
     uint8_t counts[INSOLE_GAIT_SLOTS];           /**< samples in them */
 } insole_gait_motion_t;

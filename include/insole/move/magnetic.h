@@ -46,6 +46,9 @@ typedef struct {
 
 extern const insole_magnetic_config_t insole_magnetic_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_magnetic_check(const insole_magnetic_config_t *config);
+
 typedef struct {
     insole_magnetic_config_t config;
     bool has_time;

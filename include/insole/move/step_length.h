@@ -62,6 +62,9 @@ typedef struct {
 
 extern const insole_step_length_config_t insole_step_length_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_step_length_check(const insole_step_length_config_t *config);
+
 /** @param[out] length_m  within [min_m, max_m]
  *  @return INSOLE_ERR_NULL; INSOLE_ERR_VALUE: a setting out of its range, a footfall whose range or
  *          scatter is negative or not finite; INSOLE_ERR_TIME: one that does not end after it

@@ -42,6 +42,9 @@ typedef struct {
 
 extern const insole_stride_config_t insole_stride_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_stride_check(const insole_stride_config_t *config);
+
 /** What the counter looks at. */
 typedef struct {
     uint64_t t_us;

@@ -60,6 +60,9 @@ typedef struct {
 
 extern const insole_zupt_ekf_config_t insole_zupt_ekf_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_zupt_ekf_check(const insole_zupt_ekf_config_t *config);
+
 /** What process noise grows with, waiting to be added: singly it would be lost to rounding within
  *  hours. */
 typedef struct {

@@ -49,6 +49,9 @@ typedef struct {
 
 extern const insole_screen_config_t insole_screen_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_screen_check(const insole_screen_config_t *config);
+
 /** What happened so far. */
 typedef struct {
     uint32_t samples;    /**< came in */

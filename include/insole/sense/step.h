@@ -78,6 +78,9 @@ typedef struct {
 
 extern const insole_step_config_t insole_step_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_step_check(const insole_step_config_t *config);
+
 /** What |a| did over a time. */
 typedef struct {
     insole_real_t sum, sum_of_squares; /**< of |a| - 9.81 m/s^2 */

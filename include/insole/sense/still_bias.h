@@ -54,6 +54,9 @@ typedef struct {
 
 extern const insole_still_bias_config_t insole_still_bias_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_still_bias_check(const insole_still_bias_config_t *config);
+
 /** Sums over one block, and what became of them. Values are taken relative to the block's first
  *  sample, so that the squares do not drown in gravity. */
 typedef struct {

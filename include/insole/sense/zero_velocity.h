@@ -87,6 +87,9 @@ typedef struct {
 
 extern const insole_zero_velocity_config_t insole_zero_velocity_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_zero_velocity_check(const insole_zero_velocity_config_t *config);
+
 /** A sample that leaves the delay line. */
 typedef struct {
     insole_imu_t imu;

@@ -43,6 +43,9 @@ typedef struct {
 
 extern const insole_phone_compass_config_t insole_phone_compass_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_phone_compass_check(const insole_phone_compass_config_t *config);
+
 /** What it says of the offset. */
 typedef struct {
     bool is_known;

@@ -55,6 +55,9 @@ typedef struct {
 
 extern const insole_phone_place_config_t insole_phone_place_defaults;
 
+/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+insole_status_t insole_phone_place_check(const insole_phone_place_config_t *config);
+
 typedef struct {
     insole_real_t mean_m2; /**< of the variances of each coordinate */
     uint32_t fixes;
