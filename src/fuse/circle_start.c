@@ -221,3 +221,6 @@ insole_real_t insole_circle_start_direction(const insole_circle_pair_t *pairs, u
     }
     return insole_wrap_pi(best_rad);
 }
+
+const insole_circle_start_calls_t insole_circle_start_calls = {insole_circle_start_place,
+                                                               insole_circle_start_direction};

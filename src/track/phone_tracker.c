@@ -31,8 +31,8 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
     }
     insole_phone_place_t place = {.starts = 0u};
     if (has_filter(parts) &&
-        insole_phone_place_init(&place, &config->place, &config->auto_start, &parts->filter,
-                                insole_phone_radio_can_hear(&radio)) != INSOLE_OK) {
+        insole_phone_place_init(&place, &config->place, &config->auto_start, parts->circles,
+                                &parts->filter, insole_phone_radio_can_hear(&radio)) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     *tracker = (insole_phone_tracker_t){
@@ -41,7 +41,6 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
     (void)insole_screen_init(&tracker->screen, &config->screen);
     (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
     (void)insole_attitude_init(&tracker->attitude, &config->attitude);
-    (void)insole_magnetic_init(&tracker->magnetic, &config->magnetic);
     return insole_phone_compass_init(&tracker->compass, &config->compass);
 }
 
@@ -260,9 +259,9 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
         return answer(tracker, status);
     }
     tracker->counts.magnetic++;
-    if (tracker->parts.attitude) {
-        (void)insole_magnetic_push(&tracker->magnetic, &tracker->attitude, tracker->parts.attitude,
-                                   mag);
+    const insole_magnetic_part_t *magnetic = &tracker->parts.magnetic;
+    if (magnetic->push && tracker->parts.attitude) {
+        (void)magnetic->push(magnetic->state, &tracker->attitude, tracker->parts.attitude, mag);
     }
     insole_phone_compass_t *compass = &tracker->compass;
     bool is_new =

@@ -33,6 +33,7 @@ typedef struct {
     insole_phone_tracker_config_t config;
     insole_phone_parts_t library;
     const insole_radio_map_t *map; /**< NULL: the method has no use for it, or there is none */
+    insole_magnetic_t magnetic;
     insole_walk_heading_t walk_heading;
     insole_carry_t carry;
     insole_phone_gait_t gait;
