@@ -107,6 +107,7 @@
 #include "insole/track/fusion_strides.h"
 #include "insole/track/phone_compass.h"
 #include "insole/track/phone_config.h"
+#include "insole/track/phone_gait.h"
 #include "insole/track/phone_place.h"
 #include "insole/track/phone_radio.h"
 #include "insole/track/phone_tracker.h"

@@ -29,16 +29,19 @@ insole_status_t insole_auto_start_check(const insole_auto_start_config_t *config
 }
 
 INSOLE_COLD insole_status_t insole_auto_start_init(insole_auto_start_t *start,
-                                                   const insole_auto_start_config_t *config)
+                                                   const insole_auto_start_config_t *config,
+                                                   const insole_circle_start_calls_t *circles)
 {
     if (!start || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (insole_auto_start_check(config) != INSOLE_OK) {
+    if (insole_auto_start_check(config) != INSOLE_OK ||
+        (config->method == INSOLE_AUTO_START_CIRCLES && !circles)) {
         return INSOLE_ERR_VALUE;
     }
     memset(start, 0, sizeof *start);
     start->config = *config;
+    start->circles = circles;
     start->bias_m = config->bias_m;
     return INSOLE_OK;
 }
@@ -145,7 +148,7 @@ static void add_circle(insole_auto_start_t *start, insole_auto_start_row_t row)
     }
     insole_circle_pair_t pair = {row.radio, row.way};
     start->pair[start->pairs++] = pair;
-    insole_spot_t place = insole_circle_start_place(start->pair, start->pairs);
+    insole_spot_t place = start->circles->place(start->pair, start->pairs);
     insole_spot_t off = insole_spot_sub(place, start->circle_mean);
     start->circle_mean = /* [WifiShift (1)] */
         insole_spot_add_scaled(start->circle_mean, ONE / (insole_real_t)start->pairs, off);
@@ -267,7 +270,7 @@ static void find_place(const insole_auto_start_t *start, insole_real_t concentra
 static void take_circles(const insole_auto_start_t *start, insole_auto_start_answer_t *answer)
 {
     insole_spot_t begin = start->circle_mean;
-    insole_real_t offset_rad = insole_circle_start_direction(start->pair, start->pairs, begin);
+    insole_real_t offset_rad = start->circles->direction(start->pair, start->pairs, begin);
     insole_spot_t way = insole_spot_sub(start->way, start->first_way);
     answer->begin = insole_spot_add(start->first_radio, begin);
     insole_spot_t spot =

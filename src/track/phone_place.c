@@ -31,6 +31,7 @@ insole_status_t insole_phone_place_check(const insole_phone_place_config_t *conf
 insole_status_t insole_phone_place_init(insole_phone_place_t *place,
                                         const insole_phone_place_config_t *config,
                                         const insole_auto_start_config_t *config_start,
+                                        const insole_circle_start_calls_t *circles,
                                         const insole_step_filter_t *filter, bool has_radio)
 {
     if (!place || !config || !config_start || !filter) {
@@ -38,7 +39,7 @@ insole_status_t insole_phone_place_init(insole_phone_place_t *place,
     }
     insole_auto_start_t auto_start;
     if (insole_phone_place_check(config) != INSOLE_OK || !is_whole(filter) ||
-        insole_auto_start_init(&auto_start, config_start) != INSOLE_OK) {
+        insole_auto_start_init(&auto_start, config_start, circles) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     *place = (insole_phone_place_t){
@@ -137,7 +138,7 @@ static insole_status_t begin_undirected(insole_phone_place_t *p, uint64_t t_us)
     if (!p->sight.is_known && !learns_offset(p) && p->has_radio) {
         insole_spot_fix_t fix = {t_us, at.spot, at.cov_m2, {ZERO, ZERO}};
         insole_auto_start_config_t config = p->auto_start.config;
-        (void)insole_auto_start_init(&p->auto_start, &config);
+        (void)insole_auto_start_init(&p->auto_start, &config, p->auto_start.circles);
         p->is_started = false;
         return insole_auto_start_fix(&p->auto_start, &fix);
     }

@@ -26,23 +26,21 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
     insole_phone_radio_t radio;
     if (insole_phone_config_check(config) != INSOLE_OK ||
         insole_phone_radio_init(&radio, &parts->solver, map, config->radio_late_s) != INSOLE_OK ||
-        (!has_filter(parts) && !insole_phone_radio_can_hear(&radio)) ||
-        (parts->gait.forest && insole_carry_forest_check(parts->gait.forest) != INSOLE_OK)) {
+        (!has_filter(parts) && !insole_phone_radio_can_hear(&radio))) {
         return INSOLE_ERR_VALUE;
     }
     insole_phone_place_t place = {.starts = 0u};
     if (has_filter(parts) &&
-        insole_phone_place_init(&place, &config->place, &config->auto_start, &parts->filter,
-                                insole_phone_radio_can_hear(&radio)) != INSOLE_OK) {
+        insole_phone_place_init(&place, &config->place, &config->auto_start, parts->circles,
+                                &parts->filter, insole_phone_radio_can_hear(&radio)) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
     *tracker = (insole_phone_tracker_t){
         .config = *config, .parts = *parts, .radio = radio, .place = place};
-    (void)insole_phone_walk_init(&tracker->walk, &config->walk, &parts->gait);
+    (void)insole_phone_walk_init(&tracker->walk, &config->walk, &parts->guide);
     (void)insole_screen_init(&tracker->screen, &config->screen);
     (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
     (void)insole_attitude_init(&tracker->attitude, &config->attitude);
-    (void)insole_magnetic_init(&tracker->magnetic, &config->magnetic);
     return insole_phone_compass_init(&tracker->compass, &config->compass);
 }
 
@@ -261,9 +259,9 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
         return answer(tracker, status);
     }
     tracker->counts.magnetic++;
-    if (tracker->parts.attitude) {
-        (void)insole_magnetic_push(&tracker->magnetic, &tracker->attitude, tracker->parts.attitude,
-                                   mag);
+    const insole_magnetic_part_t *magnetic = &tracker->parts.magnetic;
+    if (magnetic->push && tracker->parts.attitude) {
+        (void)magnetic->push(magnetic->state, &tracker->attitude, tracker->parts.attitude, mag);
     }
     insole_phone_compass_t *compass = &tracker->compass;
     bool is_new =

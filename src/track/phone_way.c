@@ -35,19 +35,22 @@ static uint64_t slot_of(uint64_t t_us)
     return insole_slot_of(t_us / 2u, INSOLE_PHONE_WAY_SLOT_US / 2u) + 1u; /* 0 means none */
 }
 
-static insole_turn_t *slot_at(insole_phone_way_t *way, uint64_t slot)
+/* `back` = 0 is the newest. */
+static uint32_t place_of(const insole_phone_way_t *way, uint32_t back)
 {
-    return &way->ahead[slot % INSOLE_PHONE_WAY_SLOTS];
+    return ((uint32_t)way->slot - back) % INSOLE_PHONE_WAY_SLOTS;
 }
 
-static void open_slot(insole_phone_way_t *way, uint64_t slot)
+/* The slots from the newest to that of the time, as many as there are. */
+static void open_slots(insole_phone_way_t *way, uint64_t t_us)
 {
-    uint64_t fresh = slot - way->slot;
-    uint64_t count = fresh < INSOLE_PHONE_WAY_SLOTS ? fresh : INSOLE_PHONE_WAY_SLOTS;
-    for (uint64_t i = 0u; i < count; i++) {
-        *slot_at(way, slot - i) = nowhere;
-    }
+    uint64_t slot = slot_of(t_us), fresh = slot - way->slot;
+    uint32_t count = fresh < INSOLE_PHONE_WAY_SLOTS ? (uint32_t)fresh : INSOLE_PHONE_WAY_SLOTS;
+    way->first_slot = has_slots(way) ? way->first_slot : slot;
     way->slot = slot;
+    for (uint32_t back = 0u; back < count; back++) {
+        way->ahead[place_of(way, back)] = nowhere;
+    }
 }
 
 insole_status_t insole_phone_way_face(insole_phone_way_t *way, uint64_t t_us, insole_turn_t ahead)
@@ -58,36 +61,36 @@ insole_status_t insole_phone_way_face(insole_phone_way_t *way, uint64_t t_us, in
     if (!(ahead.cos * ahead.cos + ahead.sin * ahead.sin <= LONGEST * LONGEST)) {
         return INSOLE_ERR_VALUE;
     }
-    uint64_t slot = slot_of(t_us);
-    way->first_slot = has_slots(way) ? way->first_slot : slot;
-    if (slot > way->slot) {
-        open_slot(way, slot);
+    if (t_us >= way->slot * INSOLE_PHONE_WAY_SLOT_US) {
+        open_slots(way, t_us);
     }
-    insole_turn_t *sum = slot_at(way, way->slot);
+    insole_turn_t *sum = &way->ahead[place_of(way, 0u)];
     sum->cos += ahead.cos;
     sum->sin += ahead.sin;
     return INSOLE_OK;
 }
 
-static uint64_t clamp(uint64_t slot, uint64_t least, uint64_t most)
+static uint32_t oldest_back(const insole_phone_way_t *way)
 {
-    return slot < least ? least : slot > most ? most : slot;
+    uint64_t before = way->slot - way->first_slot;
+    return before < INSOLE_PHONE_WAY_SLOTS ? (uint32_t)before : INSOLE_PHONE_WAY_SLOTS - 1u;
 }
 
-static uint64_t oldest_slot(const insole_phone_way_t *way)
+/* That of the time, or the next one to it. */
+static uint32_t back_of(const insole_phone_way_t *way, uint64_t t_us)
 {
-    uint64_t kept = way->slot - way->first_slot < INSOLE_PHONE_WAY_SLOTS
-                        ? way->slot - way->first_slot
-                        : INSOLE_PHONE_WAY_SLOTS - 1u;
-    return way->slot - kept;
+    uint64_t slot = slot_of(t_us), back = way->slot > slot ? way->slot - slot : 0u;
+    uint32_t oldest = oldest_back(way);
+    return back < oldest ? (uint32_t)back : oldest;
 }
 
-static insole_turn_t sum_of(const insole_phone_way_t *way, uint64_t from, uint64_t to)
+static insole_turn_t sum_of(const insole_phone_way_t *way, uint32_t from, uint32_t to)
 {
     insole_turn_t sum = nowhere;
-    for (uint64_t slot = from; slot <= to; slot++) {
-        sum.cos += way->ahead[slot % INSOLE_PHONE_WAY_SLOTS].cos;
-        sum.sin += way->ahead[slot % INSOLE_PHONE_WAY_SLOTS].sin;
+    for (uint32_t back = from + 1u; back-- > to;) {
+        const insole_turn_t *slot = &way->ahead[place_of(way, back)];
+        sum.cos += slot->cos;
+        sum.sin += slot->sin;
     }
     return sum;
 }
@@ -107,16 +110,15 @@ insole_status_t insole_phone_way_direction(const insole_phone_way_t *way,
     if (!has_slots(way)) {
         return INSOLE_ERR_STATE;
     }
-    uint64_t oldest = oldest_slot(way);
-    uint64_t to = clamp(slot_of(footfall->end_us), oldest, way->slot);
-    uint64_t from = clamp(slot_of(footfall->begin_us), oldest, to);
+    uint32_t to = back_of(way, footfall->end_us), from = back_of(way, footfall->begin_us);
+    from = from > to ? from : to;
     insole_turn_t sum = sum_of(way, from, to);
-    while (!has_direction(sum) && from > oldest) {
-        from--;
+    while (!has_direction(sum) && from < oldest_back(way)) {
+        from++;
         sum = sum_of(way, from, from);
     }
-    while (!has_direction(sum) && to < way->slot) {
-        to++;
+    while (!has_direction(sum) && to > 0u) {
+        to--;
         sum = sum_of(way, to, to);
     }
     *direction_rad = insole_atan2(sum.sin, sum.cos);

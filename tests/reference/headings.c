@@ -35,6 +35,7 @@ typedef struct {
     insole_attitude_t attitude;
     insole_magnetic_t magnetic;
     insole_walk_heading_t headings[METHODS], of_phone;
+    insole_phone_gait_t gait;
     insole_phone_walk_t phone;
 } rival_t;
 
@@ -122,8 +123,9 @@ static void begin(void)
             done = done && insole_walk_heading_init(&r->headings[m], &c) == INSOLE_OK;
         }
         done = done && insole_walk_heading_init(&r->of_phone, &heading_config) == INSOLE_OK;
-        insole_phone_gait_t gait = {&r->of_phone, NULL, NULL};
-        done = done && insole_phone_walk_init(&r->phone, &walk, &gait) == INSOLE_OK;
+        insole_phone_guide_t guide = {&insole_phone_gait_calls, &r->gait};
+        done = done && insole_phone_gait_init(&r->gait, &r->of_phone, NULL, NULL) == INSOLE_OK;
+        done = done && insole_phone_walk_init(&r->phone, &walk, &guide) == INSOLE_OK;
         if (!done) {
             stop("a setting is out of its range");
         }

@@ -31,7 +31,7 @@
 
 #define PHONE_TRACKER_ROW(kind, name, ...)                                                         \
     ROW(phone_tracker, phone.tracker, kind, name, __VA_ARGS__)
-#define MAGNETIC_ROW(kind, name, ...) ROW(magnetic, phone.tracker.magnetic, kind, name, __VA_ARGS__)
+#define MAGNETIC_ROW(kind, name, ...) ROW(magnetic, phone.magnetic, kind, name, __VA_ARGS__)
 
 #define PHONE_WALK_ROW(kind, name, ...) ROW(phone_walk, phone.tracker.walk, kind, name, __VA_ARGS__)
 #define PHONE_PLACE_ROW(kind, name, ...)                                                           \

@@ -50,6 +50,7 @@ typedef struct {
 typedef struct {
     phone_parts_config_t parts;
     insole_phone_tracker_config_t tracker;
+    insole_magnetic_config_t magnetic;
     insole_walk_heading_config_t walk_heading;
     insole_carry_config_t carry;
     insole_step_fusion_config_t step_fusion;

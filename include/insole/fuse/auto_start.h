@@ -5,7 +5,7 @@
  * offset.
  *
  *      static insole_auto_start_t start;
- *      insole_auto_start_init(&start, &insole_auto_start_defaults);
+ *      insole_auto_start_init(&start, &insole_auto_start_defaults, NULL);
  *      on each step:
  *          insole_auto_start_step(&start, &pace);
  *      with a magnetometer, whenever there is news of it:
@@ -24,7 +24,7 @@
  *  answered without iterations, from no knowledge of the direction on.
  *
  *  `circles`: circle_start.h over the first `fixes` fixes, as printed, with the running mean of the
- *  places. A compass is of no use to it.
+ *  places. A compass is of no use to it. It takes `&insole_circle_start_calls` in the init.
  *
  *  The covariance is that of least squares: what fixes have in common stays, however many there
  *  are. The direction's variance is never less than that of its density. To `circles` the squared
@@ -96,6 +96,7 @@ typedef struct {
     insole_auto_start_sums_t sums;
     bool has_compass;
     insole_real_t compass_rad, compass_sigma_rad;
+    const insole_circle_start_calls_t *circles;          /**< NULL: only `moved` can be asked */
     insole_circle_pair_t pair[INSOLE_CIRCLE_START_MOST]; /**< circles: the first fixes */
     uint32_t pairs;
     insole_spot_t circle_mean; /**< circles: running mean of the places */
@@ -113,9 +114,12 @@ typedef struct {
     bool ready; /**< good enough to start, by the settings */
 } insole_auto_start_answer_t;
 
-/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+/** @param circles  NULL: there are none
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range, or when the method is
+ *          `circles` and there are none */
 insole_status_t insole_auto_start_init(insole_auto_start_t *start,
-                                       const insole_auto_start_config_t *config);
+                                       const insole_auto_start_config_t *config,
+                                       const insole_circle_start_calls_t *circles);
 
 /** @return INSOLE_ERR_NULL; INSOLE_ERR_VALUE as insole_pace_check(), or beyond 100 km */
 insole_status_t insole_auto_start_step(insole_auto_start_t *start, const insole_pace_t *pace);
