@@ -41,12 +41,6 @@ static bool is_within(insole_vec3_t v, insole_real_t limit)
     return insole_abs(v.x) <= limit && insole_abs(v.y) <= limit && insole_abs(v.z) <= limit;
 }
 
-/* Not true of what is no number. */
-static bool is_shorter(insole_vec3_t v, insole_real_t limit)
-{
-    return insole_vec3_norm2(v) <= insole_square(limit);
-}
-
 static void begin_trace(insole_zupt_ekf_t *ekf, insole_zupt_step_t step)
 {
     ekf->trace.step = step;
@@ -131,10 +125,13 @@ static void turn(insole_zupt_ekf_t *ekf, insole_vec3_t gyro, insole_vec3_t back,
                  insole_real_t dt)
 {
     insole_vec3_t coning = insole_vec3_cross(back, gyro);
-    insole_vec3_t mean = part_way(gyro, part, back);
-    insole_vec3_t d = insole_vec3_scale(insole_vec3_add_scaled(mean, dt * TWELFTH, coning), dt);
-    insole_quat_t dq = insole_quat_from_rotvec(d); /* [TwoOrder (12)-(13)] */
-    ekf->q = insole_quat_mul(ekf->q, dq);          /* [TwoOrder (14)] */
+    insole_vec3_t mean = insole_vec3_add_scaled(part_way(gyro, part, back), dt * TWELFTH, coning);
+    insole_vec3_t half = insole_vec3_scale(mean, INSOLE_R(0.5) * dt);
+    insole_real_t half2 = insole_vec3_norm2(half); /* [TwoOrder (12)-(13)] */
+    insole_quat_t dq = half2 < INSOLE_QUAT_SMALL_RAD2
+                           ? insole_quat_from_small(half, half2)
+                           : insole_quat_from_rotvec(insole_vec3_scale(half, INSOLE_R(2.0)));
+    ekf->q = insole_quat_mul(ekf->q, dq); /* [TwoOrder (14)] */
     ekf->C = insole_quat_to_mat3(ekf->q);
 }
 
@@ -177,7 +174,7 @@ static insole_vec3_t mechanise(insole_zupt_ekf_t *ekf, insole_vec3_t accel, inso
     return u;
 }
 
-static void gather_clip_noise(insole_zupt_ekf_t *ekf, uint32_t clipped)
+INSOLE_COLD static void gather_clip_noise(insole_zupt_ekf_t *ekf, uint32_t clipped)
 {
     insole_mat3_t axes = insole_mat3_transpose(ekf->C);
     const insole_vec3_t *axis[3] = {&axes.r0, &axes.r1, &axes.r2};
@@ -189,10 +186,10 @@ static void gather_clip_noise(insole_zupt_ekf_t *ekf, uint32_t clipped)
 }
 
 /* What Q of table 1 grows with, put aside until a block is full. */
-static void gather_noise(insole_zupt_ekf_t *ekf, insole_vec3_t gyro, uint32_t clipped)
+static void gather_noise(insole_zupt_ekf_t *ekf, insole_real_t turn2, uint32_t clipped)
 {
     ekf->noise.time_s += ekf->dt_s;
-    ekf->noise.turned_rad2ps += insole_vec3_norm2(gyro) * ekf->dt_s;
+    ekf->noise.turned_rad2ps += turn2 * ekf->dt_s;
     if (clipped != 0u) {
         gather_clip_noise(ekf, clipped);
     }
@@ -217,14 +214,14 @@ static void add_noise(insole_zupt_ekf_t *ekf)
 }
 
 /* Rounding has had no time to be seen in the quaternion's length. */
-static void end_block(insole_zupt_ekf_t *ekf)
+INSOLE_COLD static void end_block(insole_zupt_ekf_t *ekf)
 {
     add_noise(ekf);
     ekf->q = insole_quat_normalize(ekf->q);
 }
 
-insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu_t *imu,
-                                        uint32_t clipped)
+INSOLE_FLAT insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu_t *imu,
+                                                    uint32_t clipped)
 {
     if (!ekf || !imu) {
         return INSOLE_ERR_NULL;
@@ -232,20 +229,22 @@ insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu
     if (!ekf->aligned) {
         return refuse(ekf, INSOLE_ERR_STATE);
     }
-    if (imu->t_us <= ekf->t_us) {
-        return refuse(ekf, INSOLE_ERR_TIME);
+    uint64_t step_us = imu->t_us - ekf->t_us; /* beyond all when time went back */
+    if (step_us - 1u >= LONGEST_STEP_US) {
+        return refuse(ekf, imu->t_us <= ekf->t_us ? INSOLE_ERR_TIME : INSOLE_ERR_VALUE);
     }
-    if (imu->t_us - ekf->t_us > LONGEST_STEP_US || !is_shorter(imu->accel_mps2, MOST_ACCEL_MPS2) ||
-        !is_shorter(imu->gyro_radps, MOST_GYRO_RADPS)) {
+    insole_real_t turn2 = insole_vec3_norm2(imu->gyro_radps);
+    if (!(insole_vec3_norm2(imu->accel_mps2) <= insole_square(MOST_ACCEL_MPS2) &&
+          turn2 <= insole_square(MOST_GYRO_RADPS))) {
         return refuse(ekf, INSOLE_ERR_VALUE);
     }
-    insole_real_t dt = (insole_real_t)(uint32_t)(imu->t_us - ekf->t_us) * INSOLE_R(1.0e-6);
-    insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, ekf->accel_bias_mps2);
-    insole_vec3_t u = mechanise(ekf, accel, imu->gyro_radps, dt);
-    insole_zupt_cov_propagate(&ekf->P, u, &ekf->C, dt, has_bias(ekf));
+    insole_real_t dt = (insole_real_t)(uint32_t)step_us * INSOLE_R(1.0e-6);
     ekf->dt_s = dt;
     ekf->t_us = imu->t_us;
-    gather_noise(ekf, imu->gyro_radps, clipped);
+    insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, ekf->accel_bias_mps2);
+    insole_vec3_t u = mechanise(ekf, accel, imu->gyro_radps, dt);
+    gather_noise(ekf, turn2, clipped);
+    insole_zupt_cov_propagate(&ekf->P, u, &ekf->C, dt, has_bias(ekf));
     if (ekf->noise.samples >= NOISE_BLOCK) {
         end_block(ekf);
     }
@@ -274,7 +273,7 @@ static insole_vec3_t rolling_velocity(const insole_zupt_ekf_t *ekf)
     return insole_vec3(w.y * h, -w.x * h, ZERO); /* w x (0, 0, h) */
 }
 
-insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *nis)
+INSOLE_FLAT insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *nis)
 {
     if (!ekf) {
         return INSOLE_ERR_NULL;

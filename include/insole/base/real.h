@@ -34,10 +34,10 @@ typedef float insole_real_t;
 #define INSOLE_FLAT
 #endif
 
-/** Before a function that runs seldom, once a stride or less: it and what only it calls are to be
- *  small rather than fast. */
+/** Before a function that runs seldom: made small rather than fast, and kept out of those that run
+ *  on each sample. */
 #ifdef __GNUC__
-#define INSOLE_COLD __attribute__((cold))
+#define INSOLE_COLD __attribute__((cold, noinline))
 #else
 #define INSOLE_COLD
 #endif
