@@ -42,6 +42,13 @@ typedef float insole_real_t;
 #define INSOLE_COLD
 #endif
 
+/** Before a step that most calls do not take: kept apart, so that they need not make room for it. */
+#ifdef __GNUC__
+#define INSOLE_APART __attribute__((noinline))
+#else
+#define INSOLE_APART
+#endif
+
 #define INSOLE_PI INSOLE_R(3.14159265358979323846)
 
 /** Square root; correctly rounded, hence the same bits on every machine. */
