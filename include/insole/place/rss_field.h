@@ -79,7 +79,6 @@ typedef struct {
 typedef struct {
     insole_real_t log_likelihood[INSOLE_RSS_FIELD_VIEWS]; /**< one when the heading is known */
     insole_real_t deviation_db;                           /**< measured less expected */
-    bool needed;
 } insole_rss_node_t;
 
 typedef struct {
@@ -99,6 +98,7 @@ typedef struct {
     uint32_t views;                                     /**< 1 or INSOLE_RSS_FIELD_VIEWS */
     uint32_t next_node, next_heard;                     /**< to be computed */
     insole_rss_node_t node[INSOLE_RSS_FIELD_NODES + 1]; /**< the last: where the scan points */
+    bool needed[INSOLE_RSS_FIELD_NODES + 1];            /**< the same nodes */
 
     uint32_t learned;                 /**< scans that the offset is the mean of */
     insole_real_t offset_db;          /**< the receiver hears so much stronger than expected */
