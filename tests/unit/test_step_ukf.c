@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/step_ukf.h"
 
-#include "insole/fuse/step_ekf.h"
 #include "filter_calls.h"
+#include "insole/fuse/step_ekf.h"
 #include "near.h"
 #include "plane.h"
 #include "suite.h"
