@@ -8,8 +8,8 @@ static bool is_in_range(const void *setting, const insole_config_range_t *range)
     return value >= range->low && value <= range->high;
 }
 
-insole_status_t insole_config_check(const void *config, const insole_config_range_t *ranges,
-                                    size_t count)
+INSOLE_COLD insole_status_t insole_config_check(const void *config,
+                                                const insole_config_range_t *ranges, size_t count)
 {
     if (!config || !ranges) {
         return INSOLE_ERR_NULL;

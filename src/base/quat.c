@@ -32,13 +32,14 @@ insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad)
         s = SHARE(2.0) * (one - z * SHARE(6.0) * (one - z * SHARE(20.0) * s));
     } else {
         insole_real_t half = insole_sqrt(half2);
-        c = insole_cos(half);
-        s = SHARE(2.0) * insole_sin(half) / half;
+        insole_turn_t turn = insole_turn(half);
+        c = turn.cos;
+        s = SHARE(2.0) * turn.sin / half;
     }
     return insole_quat(c, s * rotation_rad.x, s * rotation_rad.y, s * rotation_rad.z);
 }
 
-insole_quat_t insole_quat_from_gravity(insole_vec3_t f_b)
+INSOLE_COLD insole_quat_t insole_quat_from_gravity(insole_vec3_t f_b)
 {
     insole_real_t horizontal = insole_sqrt(f_b.y * f_b.y + f_b.z * f_b.z);
     insole_real_t roll = insole_atan2(f_b.y, f_b.z);
@@ -49,12 +50,12 @@ insole_quat_t insole_quat_from_gravity(insole_vec3_t f_b)
     return insole_quat_normalize(insole_quat_mul(q_pitch, q_roll));
 }
 
-insole_quat_t insole_quat_from_yaw(insole_real_t yaw_rad)
+INSOLE_COLD insole_quat_t insole_quat_from_yaw(insole_real_t yaw_rad)
 {
     return insole_quat_from_rotvec(insole_vec3(INSOLE_R(0.0), INSOLE_R(0.0), yaw_rad));
 }
 
-insole_quat_t insole_quat_level(insole_quat_t q, insole_vec3_t f_b)
+INSOLE_COLD insole_quat_t insole_quat_level(insole_quat_t q, insole_vec3_t f_b)
 {
     insole_vec3_t f = insole_quat_rotate(q, f_b);
     insole_quat_t tilt = insole_quat(insole_vec3_norm(f) + f.z, f.y, -f.x, INSOLE_R(0.0));

@@ -28,9 +28,9 @@ insole_status_t insole_auto_start_check(const insole_auto_start_config_t *config
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_auto_start_init(insole_auto_start_t *start,
-                                       const insole_auto_start_config_t *config,
-                                       const insole_circle_start_calls_t *circles)
+INSOLE_COLD insole_status_t insole_auto_start_init(insole_auto_start_t *start,
+                                                   const insole_auto_start_config_t *config,
+                                                   const insole_circle_start_calls_t *circles)
 {
     if (!start || !config) {
         return INSOLE_ERR_NULL;
@@ -46,7 +46,8 @@ insole_status_t insole_auto_start_init(insole_auto_start_t *start,
     return INSOLE_OK;
 }
 
-insole_status_t insole_auto_start_step(insole_auto_start_t *start, const insole_pace_t *pace)
+INSOLE_COLD insole_status_t insole_auto_start_step(insole_auto_start_t *start,
+                                                   const insole_pace_t *pace)
 {
     if (!start || !pace) {
         return INSOLE_ERR_NULL;
@@ -69,8 +70,9 @@ insole_status_t insole_auto_start_step(insole_auto_start_t *start, const insole_
     return INSOLE_OK;
 }
 
-insole_status_t insole_auto_start_compass(insole_auto_start_t *start, insole_real_t offset_rad,
-                                          insole_real_t sigma_rad)
+INSOLE_COLD insole_status_t insole_auto_start_compass(insole_auto_start_t *start,
+                                                      insole_real_t offset_rad,
+                                                      insole_real_t sigma_rad)
 {
     if (!start) {
         return INSOLE_ERR_NULL;
@@ -86,7 +88,8 @@ insole_status_t insole_auto_start_compass(insole_auto_start_t *start, insole_rea
     return INSOLE_OK;
 }
 
-insole_status_t insole_auto_start_bias(insole_auto_start_t *start, insole_real_t sigma_m)
+INSOLE_COLD insole_status_t insole_auto_start_bias(insole_auto_start_t *start,
+                                                   insole_real_t sigma_m)
 {
     if (!start) {
         return INSOLE_ERR_NULL;
@@ -173,7 +176,8 @@ static void take(insole_auto_start_t *start, const insole_spot_fix_t *fix)
     start->fixes++;
 }
 
-insole_status_t insole_auto_start_fix(insole_auto_start_t *start, const insole_spot_fix_t *fix)
+INSOLE_COLD insole_status_t insole_auto_start_fix(insole_auto_start_t *start,
+                                                  const insole_spot_fix_t *fix)
 {
     if (!start || !fix) {
         return INSOLE_ERR_NULL;
@@ -280,8 +284,8 @@ static void take_circles(const insole_auto_start_t *start, insole_auto_start_ans
     answer->offset_rad = offset_rad;
 }
 
-insole_status_t insole_auto_start_answer(const insole_auto_start_t *start,
-                                         insole_auto_start_answer_t *answer)
+INSOLE_COLD insole_status_t insole_auto_start_answer(const insole_auto_start_t *start,
+                                                     insole_auto_start_answer_t *answer)
 {
     if (!start || !answer) {
         return INSOLE_ERR_NULL;

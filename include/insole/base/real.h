@@ -34,6 +34,14 @@ typedef float insole_real_t;
 #define INSOLE_FLAT
 #endif
 
+/** Before a function that runs once per step, per scan, or at the start: it is made small rather
+ *  than fast. */
+#ifdef __GNUC__
+#define INSOLE_COLD __attribute__((cold))
+#else
+#define INSOLE_COLD
+#endif
+
 #define INSOLE_PI INSOLE_R(3.14159265358979323846)
 
 /** Square root; correctly rounded, hence the same bits on every machine. */
