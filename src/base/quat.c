@@ -21,8 +21,9 @@ insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad)
         return insole_quat_from_small(v, half2);
     }
     insole_real_t half = insole_sqrt(half2);
-    insole_real_t s = insole_sin(half) / half;
-    return insole_quat(insole_cos(half), s * v.x, s * v.y, s * v.z);
+    insole_turn_t turn = insole_turn(half);
+    insole_real_t s = turn.sin / half;
+    return insole_quat(turn.cos, s * v.x, s * v.y, s * v.z);
 }
 
 INSOLE_COLD insole_quat_t insole_quat_from_gravity(insole_vec3_t f_b)

@@ -11,8 +11,8 @@ insole_spot_mixture_t insole_spot_mixture_empty(void)
 }
 
 /* The new weight becomes 1, all before shrink to their share of it. */
-static void crown(insole_spot_mixture_t *mixture, uint32_t number, insole_spot_t spot,
-                  insole_real_t log_weight)
+INSOLE_COLD static void crown(insole_spot_mixture_t *mixture, uint32_t number, insole_spot_t spot,
+                              insole_real_t log_weight)
 {
     insole_real_t shrink = mixture->count > 0u ? insole_exp(mixture->log_top - log_weight) : ZERO;
     mixture->weight *= shrink;
@@ -47,8 +47,9 @@ void insole_spot_mixture_add(insole_spot_mixture_t *mixture, uint32_t number, in
     mixture->yy += rest * y_m * y_m;
 }
 
-void insole_spot_mixture_cov(const insole_spot_mixture_t *mixture, insole_spot_t at,
-                             insole_real_t sigma_m, insole_real_t widen, insole_radio_fix_t *fix)
+INSOLE_COLD void insole_spot_mixture_cov(const insole_spot_mixture_t *mixture, insole_spot_t at,
+                                         insole_real_t sigma_m, insole_real_t widen,
+                                         insole_radio_fix_t *fix)
 {
     insole_real_t x_m = at.x_m - mixture->mean.x_m, y_m = at.y_m - mixture->mean.y_m;
     insole_real_t scale = widen / mixture->weight, point_m2 = sigma_m * sigma_m;

@@ -30,7 +30,8 @@ insole_status_t insole_step_check(const insole_step_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_step_init(insole_step_counter_t *counter, const insole_step_config_t *config)
+INSOLE_COLD insole_status_t insole_step_init(insole_step_counter_t *counter,
+                                             const insole_step_config_t *config)
 {
     if (!counter || !config) {
         return INSOLE_ERR_NULL;
@@ -134,7 +135,7 @@ static void learn(insole_step_counter_t *c)
 }
 
 /* The first of the held steps borrows from the second; the walker is known from all others. */
-static void begin_walk(insole_step_counter_t *c)
+INSOLE_COLD static void begin_walk(insole_step_counter_t *c)
 {
     borrow(newest_footfall(c, c->held), newest_footfall(c, c->held - 1u));
     insole_real_t shortest_s = c->config.max_interval_s, sum_mps2 = ZERO;
@@ -156,7 +157,7 @@ static insole_real_t likeness_since(const insole_step_counter_t *c, uint64_t pea
 }
 
 /* The peak can not be corrected any more: it is a step, if this is a walk. */
-static void close_peak(insole_step_counter_t *c)
+INSOLE_COLD static void close_peak(insole_step_counter_t *c)
 {
     const insole_step_config_t *s = &c->config;
     insole_real_t likeness =
@@ -217,7 +218,7 @@ static bool is_close(const insole_step_counter_t *c, uint64_t t_us)
 }
 
 /* The newest value of the smoothed |a| is a local maximum. [PhoneEKF (2)] [PhoneUKF (5)] */
-static void take_peak(insole_step_counter_t *c, uint64_t t_us)
+INSOLE_COLD static void take_peak(insole_step_counter_t *c, uint64_t t_us)
 {
     insole_step_peak_t peak = {t_us, c->newest, c->span};
     if (c->has_peak && is_close(c, t_us)) {
@@ -239,7 +240,7 @@ static void take_peak(insole_step_counter_t *c, uint64_t t_us)
 /* ---- samples ---------------------------------------------------------------------------- */
 
 /* What the walker is used to is kept. */
-static void begin_anew(insole_step_counter_t *c, insole_real_t length_mps2)
+INSOLE_COLD static void begin_anew(insole_step_counter_t *c, insole_real_t length_mps2)
 {
     c->mean_mps2 = length_mps2;
     c->band = c->low = c->newest = c->older = c->trough = ZERO;
@@ -316,7 +317,8 @@ insole_status_t insole_step_push(insole_step_counter_t *counter, uint64_t t_us, 
     return INSOLE_OK;
 }
 
-insole_status_t insole_step_next(insole_step_counter_t *counter, insole_footfall_t *footfall)
+INSOLE_COLD insole_status_t insole_step_next(insole_step_counter_t *counter,
+                                             insole_footfall_t *footfall)
 {
     if (!counter || !footfall) {
         return INSOLE_ERR_NULL;
@@ -329,8 +331,8 @@ insole_status_t insole_step_next(insole_step_counter_t *counter, insole_footfall
     return INSOLE_OK;
 }
 
-insole_status_t insole_step_held(const insole_step_counter_t *counter, uint32_t number,
-                                 insole_footfall_t *footfall)
+INSOLE_COLD insole_status_t insole_step_held(const insole_step_counter_t *counter, uint32_t number,
+                                             insole_footfall_t *footfall)
 {
     if (!counter || !footfall) {
         return INSOLE_ERR_NULL;

@@ -20,8 +20,8 @@ insole_status_t insole_phone_compass_check(const insole_phone_compass_config_t *
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_phone_compass_init(insole_phone_compass_t *compass,
-                                          const insole_phone_compass_config_t *config)
+INSOLE_COLD insole_status_t insole_phone_compass_init(insole_phone_compass_t *compass,
+                                                      const insole_phone_compass_config_t *config)
 {
     if (!compass || !config) {
         return INSOLE_ERR_NULL;
@@ -48,7 +48,7 @@ static void begin_block(insole_phone_compass_t *c)
     c->readings = 0u;
 }
 
-static bool close_block(insole_phone_compass_t *c, uint64_t t_us)
+INSOLE_COLD static bool close_block(insole_phone_compass_t *c, uint64_t t_us)
 {
     if (c->readings == 0u || insole_seconds(c->block_us, t_us) < c->config.block_s) {
         return false;
@@ -82,14 +82,14 @@ bool insole_phone_compass_push(insole_phone_compass_t *compass, uint64_t t_us,
     return is_full;
 }
 
-void insole_phone_compass_forget(insole_phone_compass_t *compass)
+INSOLE_COLD void insole_phone_compass_forget(insole_phone_compass_t *compass)
 {
     begin_block(compass);
     compass->all = nothing;
     compass->used = 0u;
 }
 
-insole_phone_sight_t insole_phone_compass_sight(const insole_phone_compass_t *compass)
+INSOLE_COLD insole_phone_sight_t insole_phone_compass_sight(const insole_phone_compass_t *compass)
 {
     insole_phone_sight_t sight = {compass->used > 0u, compass->block_rad,
                                   compass->config.sigma_block_rad, compass->mean_rad,

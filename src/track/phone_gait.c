@@ -19,16 +19,33 @@ static const insole_real_t OTHER_END_RAD = INSOLE_R(2.0);
 
 static const insole_turn_t nothing = {ZERO, ZERO};
 
-insole_status_t insole_phone_gait_init(insole_phone_gait_t *gait, insole_walk_heading_t *heading,
-                                       insole_carry_t *carry, const insole_carry_forest_t *forest)
+const insole_phone_gait_config_t insole_phone_gait_defaults = {
+    INSOLE_PHONE_GAIT_KEYS(INSOLE_CONFIG_DEFAULT)};
+
+insole_status_t insole_phone_gait_check(const insole_phone_gait_config_t *config)
+{
+    typedef insole_phone_gait_config_t config_t;
+    static const insole_config_range_t ranges[] = {INSOLE_PHONE_GAIT_KEYS(INSOLE_CONFIG_RANGE)};
+    return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
+}
+
+insole_status_t insole_phone_gait_init(insole_phone_gait_t *gait,
+                                       const insole_phone_gait_config_t *config,
+                                       insole_walk_heading_t *heading, insole_carry_t *carry,
+                                       const insole_carry_forest_t *forest)
 {
     if (!gait) {
         return INSOLE_ERR_NULL;
     }
+    insole_status_t status = insole_phone_gait_check(config);
+    if (status != INSOLE_OK) {
+        return status;
+    }
     if (forest && insole_carry_forest_check(forest) != INSOLE_OK) {
         return INSOLE_ERR_DATA;
     }
-    *gait = (insole_phone_gait_t){.heading = heading, .carry = carry, .forest = forest};
+    *gait = (insole_phone_gait_t){
+        .config = *config, .heading = heading, .carry = carry, .forest = forest};
     return INSOLE_OK;
 }
 
@@ -49,7 +66,7 @@ static void tell_askew(const insole_phone_gait_t *g, insole_phone_walk_t *walk)
     lie->is_known = insole_abs(sum->cos) + insole_abs(sum->sin) > ZERO;
     lie->askew_rad = insole_atan2(sum->sin, sum->cos);
     lie->askew = insole_turn(lie->askew_rad);
-    lie->var_rad2 = variance_of(sum, walk->config.sigma_gait_rad);
+    lie->var_rad2 = variance_of(sum, g->config.sigma_gait_rad);
 }
 
 static void forget_askew(insole_phone_gait_t *g, insole_phone_walk_t *walk)
@@ -77,7 +94,7 @@ static insole_real_t of_position(int32_t position, insole_real_t ear, insole_rea
 
 static void tell_position(const insole_phone_gait_t *g, insole_phone_walk_t *walk)
 {
-    const insole_phone_walk_config_t *c = &walk->config;
+    const insole_phone_gait_config_t *c = &g->config;
     insole_phone_lie_t *lie = &walk->lie;
     lie->position = g->carry && g->forest ? g->carry->told : INSOLE_CARRY_NONE;
     bool is_asked = c->faces == FACES_CARRIED;
@@ -128,7 +145,7 @@ static void watch_lie(insole_phone_gait_t *g, insole_phone_walk_t *walk, insole_
     insole_real_t length = insole_vec3_norm(mean);
     g->up = length > INSOLE_R(0.1) ? insole_vec3_scale(mean, ONE / length) : up;
     bool is_first = !(insole_vec3_max_abs(g->askew.up) > ZERO);
-    if (is_first || insole_vec3_dot(g->up, g->askew.up) < insole_cos(walk->config.tipped_rad)) {
+    if (is_first || insole_vec3_dot(g->up, g->askew.up) < insole_cos(g->config.tipped_rad)) {
         forget_askew(g, walk);
     }
 }
@@ -165,8 +182,8 @@ static void learn_askew(insole_phone_gait_t *g, insole_phone_walk_t *walk, insol
     }
     insole_real_t weight = ONE / (walked->variance_rad2 + INSOLE_R(1.0e-3));
     insole_turn_t turn = insole_turn(askew_rad);
-    sum->cos = walk->config.gait_keep * sum->cos + weight * turn.cos;
-    sum->sin = walk->config.gait_keep * sum->sin + weight * turn.sin;
+    sum->cos = g->config.gait_keep * sum->cos + weight * turn.cos;
+    sum->sin = g->config.gait_keep * sum->sin + weight * turn.sin;
     tell_askew(g, walk);
 }
 
@@ -181,7 +198,7 @@ static bool gait_step(void *state, insole_phone_walk_t *walk, const insole_footf
         return true;
     }
     learn_askew(g, walk, device_rad, &walked);
-    if (walk->lie.is_askew && walk->config.gait == 1) {
+    if (walk->lie.is_askew && g->config.gait == 1) {
         pace->heading_rad = walked.direction_rad; /* [PhoneUKF (38)] */
         pace->var_heading_rad2 = walked.is_certain ? walked.variance_rad2 : INSOLE_HEADING_MOST_R2;
         return true;

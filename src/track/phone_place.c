@@ -28,26 +28,33 @@ insole_status_t insole_phone_place_check(const insole_phone_place_config_t *conf
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_phone_place_init(insole_phone_place_t *place,
-                                        const insole_phone_place_config_t *config,
-                                        const insole_auto_start_config_t *config_start,
-                                        const insole_circle_start_calls_t *circles,
-                                        const insole_step_filter_t *filter, bool has_radio)
+INSOLE_COLD insole_status_t insole_phone_place_init(insole_phone_place_t *place,
+                                                    const insole_phone_place_config_t *config,
+                                                    const insole_auto_start_config_t *config_start,
+                                                    const insole_circle_start_calls_t *circles,
+                                                    const insole_step_filter_t *filter,
+                                                    bool has_radio)
 {
     if (!place || !config || !config_start || !filter) {
         return INSOLE_ERR_NULL;
     }
-    insole_auto_start_t auto_start;
     if (insole_phone_place_check(config) != INSOLE_OK || !is_whole(filter) ||
-        insole_auto_start_init(&auto_start, config_start, circles) != INSOLE_OK) {
+        insole_auto_start_init(&place->auto_start, config_start, circles) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
-    *place = (insole_phone_place_t){
-        .config = *config, .filter = *filter, .has_radio = has_radio, .auto_start = auto_start};
+    place->config = *config;
+    place->filter = *filter;
+    place->has_radio = has_radio;
+    place->sight = (insole_phone_sight_t){.is_known = false};
+    place->start = (insole_start_t){.t_us = 0u};
+    place->has_start = place->is_started = false;
+    place->told = (insole_phone_told_t){.fixes = 0u};
+    place->starts = place->refused = 0u;
     return INSOLE_OK;
 }
 
-insole_status_t insole_phone_place_tell(insole_phone_place_t *place, const insole_start_t *start)
+INSOLE_COLD insole_status_t insole_phone_place_tell(insole_phone_place_t *place,
+                                                    const insole_start_t *start)
 {
     if (!place) {
         return INSOLE_ERR_NULL;
@@ -73,7 +80,8 @@ static insole_status_t note(insole_phone_place_t *p, insole_status_t status)
     return status;
 }
 
-static insole_status_t begin(insole_phone_place_t *p, const insole_step_filter_begin_t *at)
+INSOLE_COLD static insole_status_t begin(insole_phone_place_t *p,
+                                         const insole_step_filter_begin_t *at)
 {
     insole_status_t status = p->filter.calls->start(p->filter.state, at);
     if (status == INSOLE_OK) {
@@ -83,7 +91,8 @@ static insole_status_t begin(insole_phone_place_t *p, const insole_step_filter_b
     return note(p, status);
 }
 
-static insole_status_t walk(insole_phone_place_t *p, uint64_t t_us, const insole_pace_t *pace)
+INSOLE_COLD static insole_status_t walk(insole_phone_place_t *p, uint64_t t_us,
+                                        const insole_pace_t *pace)
 {
     return note(p, p->filter.calls->step(p->filter.state, t_us, pace));
 }
@@ -100,7 +109,7 @@ static bool is_reached(const insole_phone_place_t *p, uint64_t t_us)
     return p->has_start && t_us >= p->start.t_us;
 }
 
-static insole_step_filter_begin_t at_start(const insole_phone_place_t *p, uint64_t t_us)
+INSOLE_COLD static insole_step_filter_begin_t at_start(const insole_phone_place_t *p, uint64_t t_us)
 {
     insole_real_t sigma_m = insole_max(p->start.sigma_m, LEAST_SIGMA_M);
     insole_step_filter_begin_t at = {.t_us = t_us,
@@ -114,8 +123,8 @@ bool insole_phone_place_wants_direction(const insole_phone_place_t *place, uint6
     return place && is_reached(place, t_us) && place->start.has_heading;
 }
 
-insole_status_t insole_phone_place_direct(insole_phone_place_t *place, uint64_t t_us,
-                                          insole_real_t direction_rad)
+INSOLE_COLD insole_status_t insole_phone_place_direct(insole_phone_place_t *place, uint64_t t_us,
+                                                      insole_real_t direction_rad)
 {
     if (!place) {
         return INSOLE_ERR_NULL;
@@ -131,7 +140,7 @@ insole_status_t insole_phone_place_direct(insole_phone_place_t *place, uint64_t 
 }
 
 /* The place alone was told. */
-static insole_status_t begin_undirected(insole_phone_place_t *p, uint64_t t_us)
+INSOLE_COLD static insole_status_t begin_undirected(insole_phone_place_t *p, uint64_t t_us)
 {
     insole_step_filter_begin_t at = at_start(p, t_us);
     p->has_start = false;
@@ -148,7 +157,7 @@ static insole_status_t begin_undirected(insole_phone_place_t *p, uint64_t t_us)
     return begin(p, &at);
 }
 
-static insole_status_t begin_at_origin(insole_phone_place_t *p, uint64_t t_us)
+INSOLE_COLD static insole_status_t begin_at_origin(insole_phone_place_t *p, uint64_t t_us)
 {
     const insole_step_filter_calls_t *calls = p->filter.calls;
     if (calls->start_anywhere && calls->start_anywhere(p->filter.state, t_us) == INSOLE_OK) {
@@ -162,8 +171,8 @@ static insole_status_t begin_at_origin(insole_phone_place_t *p, uint64_t t_us)
     return begin(p, &at);
 }
 
-insole_status_t insole_phone_place_step(insole_phone_place_t *place, uint64_t t_us,
-                                        const insole_pace_t *pace)
+INSOLE_COLD insole_status_t insole_phone_place_step(insole_phone_place_t *place, uint64_t t_us,
+                                                    const insole_pace_t *pace)
 {
     if (!place || !pace) {
         return INSOLE_ERR_NULL;
@@ -181,7 +190,8 @@ insole_status_t insole_phone_place_step(insole_phone_place_t *place, uint64_t t_
 
 /* ---- fixes ------------------------------------------------------------------------------ */
 
-static insole_status_t begin_by_fixes(insole_phone_place_t *p, const insole_spot_fix_t *fix)
+INSOLE_COLD static insole_status_t begin_by_fixes(insole_phone_place_t *p,
+                                                  const insole_spot_fix_t *fix)
 {
     insole_auto_start_answer_t found;
     if (p->sight.is_known) {
@@ -202,7 +212,7 @@ static insole_status_t begin_by_fixes(insole_phone_place_t *p, const insole_spot
 }
 
 /* What is heard of a bias is known before the fix is used. */
-static void tell_bias(insole_phone_place_t *p)
+INSOLE_COLD static void tell_bias(insole_phone_place_t *p)
 {
     insole_real_t sigma_m = p->told.fixes > 0u ? p->config.bias_share * insole_sqrt(p->told.mean_m2)
                                                : INSOLE_SPOT_MOST_M;
@@ -213,7 +223,7 @@ static void tell_bias(insole_phone_place_t *p)
 }
 
 /* Of dense fingerprints fixes tell more, and what they share is less. */
-static void learn_bias(insole_phone_place_t *p, const insole_spot_fix_t *fix)
+INSOLE_COLD static void learn_bias(insole_phone_place_t *p, const insole_spot_fix_t *fix)
 {
     insole_phone_told_t *told = &p->told;
     told->fixes += told->fixes < UINT32_MAX ? 1u : 0u;
@@ -228,7 +238,8 @@ static insole_status_t use_fix(insole_phone_place_t *p, const insole_spot_fix_t 
                          : begin_by_fixes(p, fix);
 }
 
-insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole_spot_fix_t *fix)
+INSOLE_COLD insole_status_t insole_phone_place_fix(insole_phone_place_t *place,
+                                                   const insole_spot_fix_t *fix)
 {
     if (!place || !fix) {
         return INSOLE_ERR_NULL;
@@ -249,7 +260,7 @@ insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole
     return status;
 }
 
-insole_status_t insole_phone_place_compass(insole_phone_place_t *place)
+INSOLE_COLD insole_status_t insole_phone_place_compass(insole_phone_place_t *place)
 {
     if (!place) {
         return INSOLE_ERR_NULL;
@@ -264,8 +275,8 @@ insole_status_t insole_phone_place_compass(insole_phone_place_t *place)
 
 /* ---- gaps ------------------------------------------------------------------------------- */
 
-insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_us,
-                                       insole_real_t gap_s)
+INSOLE_COLD insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_us,
+                                                   insole_real_t gap_s)
 {
     if (!place) {
         return INSOLE_ERR_NULL;
@@ -293,7 +304,8 @@ insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_u
 
 /* ---- the answer ------------------------------------------------------------------------- */
 
-static insole_step_filter_answer_t told_answer(const insole_phone_place_t *p, uint64_t t_us)
+INSOLE_COLD static insole_step_filter_answer_t told_answer(const insole_phone_place_t *p,
+                                                           uint64_t t_us)
 {
     insole_step_filter_begin_t at = at_start(p, t_us);
     insole_real_t var_rad2 =
@@ -332,8 +344,9 @@ insole_status_t insole_phone_place_answer(const insole_phone_place_t *place, uin
     return INSOLE_OK;
 }
 
-bool insole_phone_place_area(const insole_phone_place_t *place, uint64_t t_us, insole_real_t sigmas,
-                             insole_real_t least_m, insole_trusted_area_t *area)
+INSOLE_COLD bool insole_phone_place_area(const insole_phone_place_t *place, uint64_t t_us,
+                                         insole_real_t sigmas, insole_real_t least_m,
+                                         insole_trusted_area_t *area)
 {
     insole_phone_answer_t known;
     return area && insole_phone_place_answer(place, t_us, &known) == INSOLE_OK &&

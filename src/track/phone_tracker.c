@@ -2,6 +2,7 @@
 #include "insole/track/phone_tracker.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "insole/move/magnetic.h"
 
@@ -15,10 +16,10 @@ static bool has_filter(const insole_phone_parts_t *parts)
     return parts->filter.calls != NULL;
 }
 
-insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
-                                          const insole_phone_tracker_config_t *config,
-                                          const insole_phone_parts_t *parts,
-                                          const insole_radio_map_t *map)
+INSOLE_COLD insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
+                                                      const insole_phone_tracker_config_t *config,
+                                                      const insole_phone_parts_t *parts,
+                                                      const insole_radio_map_t *map)
 {
     if (!tracker || !config || !parts) {
         return INSOLE_ERR_NULL;
@@ -29,14 +30,20 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
         (!has_filter(parts) && !insole_phone_radio_can_hear(&radio))) {
         return INSOLE_ERR_VALUE;
     }
-    insole_phone_place_t place = {.starts = 0u};
-    if (has_filter(parts) &&
-        insole_phone_place_init(&place, &config->place, &config->auto_start, parts->circles,
-                                &parts->filter, insole_phone_radio_can_hear(&radio)) != INSOLE_OK) {
+    if (!has_filter(parts)) {
+        memset(&tracker->place, 0, sizeof tracker->place);
+    } else if (insole_phone_place_init(&tracker->place, &config->place, &config->auto_start,
+                                       parts->circles, &parts->filter,
+                                       insole_phone_radio_can_hear(&radio)) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
-    *tracker = (insole_phone_tracker_t){
-        .config = *config, .parts = *parts, .radio = radio, .place = place};
+    tracker->config = *config;
+    tracker->parts = *parts;
+    tracker->radio = radio;
+    tracker->counts = (insole_phone_counts_t){0u};
+    tracker->t_us = 0u;
+    tracker->has_time = tracker->coasting = tracker->finished = tracker->has_fix = false;
+    tracker->fix = (insole_fix_t){0u};
     (void)insole_phone_walk_init(&tracker->walk, &config->walk, &parts->guide);
     (void)insole_screen_init(&tracker->screen, &config->screen);
     (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
@@ -50,8 +57,8 @@ static insole_status_t answer(insole_phone_tracker_t *t, insole_status_t status)
     return status;
 }
 
-insole_status_t insole_phone_tracker_start(insole_phone_tracker_t *tracker,
-                                           const insole_start_t *start)
+INSOLE_COLD insole_status_t insole_phone_tracker_start(insole_phone_tracker_t *tracker,
+                                                       const insole_start_t *start)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;
@@ -151,7 +158,7 @@ static void fix_by_filter(insole_phone_tracker_t *t, insole_fix_t *fix)
     fix->state = state_of(t, &known);
 }
 
-static void fix_by_radio(const insole_phone_tracker_t *t, insole_fix_t *fix)
+INSOLE_COLD static void fix_by_radio(const insole_phone_tracker_t *t, insole_fix_t *fix)
 {
     fix->var_heading_rad2 = INSOLE_HEADING_MOST_R2;
     fix->state = INSOLE_FIX_SEARCH;
@@ -237,7 +244,7 @@ static void flush(insole_phone_tracker_t *t)
     }
 }
 
-insole_status_t insole_phone_tracker_finish(insole_phone_tracker_t *tracker)
+INSOLE_COLD insole_status_t insole_phone_tracker_finish(insole_phone_tracker_t *tracker)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;
@@ -275,7 +282,7 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
 
 /* ---- radio ------------------------------------------------------------------------------ */
 
-static void use_fix(insole_phone_tracker_t *t)
+INSOLE_COLD static void use_fix(insole_phone_tracker_t *t)
 {
     const insole_radio_fix_t *told = &t->radio.fix;
     insole_real_t more_m2 = insole_square(t->config.sigma_fix_m);
@@ -287,14 +294,14 @@ static void use_fix(insole_phone_tracker_t *t)
 }
 
 /* After one ahead the filter takes none of before; of one long ago the way since is forgotten. */
-static bool is_in_time(const insole_phone_tracker_t *t, uint64_t t_us)
+INSOLE_COLD static bool is_in_time(const insole_phone_tracker_t *t, uint64_t t_us)
 {
     bool is_ahead = t->has_time && t_us > t->t_us && t_us - t->t_us > SCAN_AHEAD_US;
     return !has_filter(&t->parts) || (!is_ahead && insole_phone_way_reaches(&t->walk.way, t_us));
 }
 
-insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
-                                          const insole_scan_t *scan)
+INSOLE_COLD insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
+                                                      const insole_scan_t *scan)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;

@@ -35,9 +35,9 @@ insole_status_t insole_phone_walk_check(const insole_phone_walk_config_t *config
     return all ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 
-insole_status_t insole_phone_walk_init(insole_phone_walk_t *walk,
-                                       const insole_phone_walk_config_t *config,
-                                       const insole_phone_guide_t *guide)
+INSOLE_COLD insole_status_t insole_phone_walk_init(insole_phone_walk_t *walk,
+                                                   const insole_phone_walk_config_t *config,
+                                                   const insole_phone_guide_t *guide)
 {
     if (!walk) {
         return INSOLE_ERR_NULL;
@@ -58,7 +58,7 @@ insole_status_t insole_phone_walk_init(insole_phone_walk_t *walk,
 
 /* ---- how the phone lies ----------------------------------------------------------------- */
 
-bool insole_phone_walk_work(insole_phone_walk_t *walk)
+INSOLE_COLD bool insole_phone_walk_work(insole_phone_walk_t *walk)
 {
     if (!walk || !walk->guide.calls || !walk->guide.calls->work(walk->guide.state, walk)) {
         return false;
@@ -73,8 +73,8 @@ bool insole_phone_walk_is_directed(const insole_phone_walk_t *walk)
 }
 
 /* Length, and the direction in which the phone points, or its mean askew from it. */
-static bool pace_of(const insole_phone_walk_t *w, const insole_footfall_t *footfall,
-                    insole_pace_t *pace)
+INSOLE_COLD static bool pace_of(const insole_phone_walk_t *w, const insole_footfall_t *footfall,
+                                insole_pace_t *pace)
 {
     if (insole_step_length(&w->config.step_length, footfall, &pace->length_m) != INSOLE_OK ||
         insole_phone_way_direction(&w->way, footfall, &pace->heading_rad) != INSOLE_OK) {
@@ -94,8 +94,8 @@ static bool pace_of(const insole_phone_walk_t *w, const insole_footfall_t *footf
 }
 
 /* The guide is asked for every step: the gait knows its end from those before. */
-static void ask_guide(insole_phone_walk_t *w, const insole_footfall_t *footfall,
-                      insole_pace_t *pace)
+INSOLE_COLD static void ask_guide(insole_phone_walk_t *w, const insole_footfall_t *footfall,
+                                  insole_pace_t *pace)
 {
     const insole_phone_guide_t *guide = &w->guide;
     if (guide->calls && !guide->calls->step(guide->state, w, footfall, pace)) {
@@ -117,7 +117,7 @@ insole_turn_t insole_phone_walk_ahead(const insole_phone_walk_t *walk)
 /* ---- steps that are shown, not told ----------------------------------------------------- */
 
 /* Their way up to a time. */
-static insole_spot_t held_way(const insole_phone_walk_t *w, uint64_t until_us)
+INSOLE_COLD static insole_spot_t held_way(const insole_phone_walk_t *w, uint64_t until_us)
 {
     insole_spot_t sum = {ZERO, ZERO};
     insole_footfall_t footfall;
@@ -145,7 +145,7 @@ static void show_held(insole_phone_walk_t *w)
     }
 }
 
-insole_spot_t insole_phone_walk_since(const insole_phone_walk_t *walk, uint64_t t_us)
+INSOLE_COLD insole_spot_t insole_phone_walk_since(const insole_phone_walk_t *walk, uint64_t t_us)
 {
     return insole_spot_sub(insole_phone_way_since(&walk->way, t_us), held_way(walk, t_us));
 }

@@ -13,7 +13,7 @@ static const insole_real_t SHORTEST = INSOLE_R(0.1); /* of a sum that has a dire
 
 static const insole_turn_t nowhere = {ZERO, ZERO};
 
-insole_status_t insole_phone_way_init(insole_phone_way_t *way)
+INSOLE_COLD insole_status_t insole_phone_way_init(insole_phone_way_t *way)
 {
     if (!way) {
         return INSOLE_ERR_NULL;
@@ -42,7 +42,7 @@ static uint32_t place_of(const insole_phone_way_t *way, uint32_t back)
 }
 
 /* The slots from the newest to that of the time, as many as there are. */
-static void open_slots(insole_phone_way_t *way, uint64_t t_us)
+INSOLE_COLD static void open_slots(insole_phone_way_t *way, uint64_t t_us)
 {
     uint64_t slot = slot_of(t_us), fresh = slot - way->slot;
     uint32_t count = fresh < INSOLE_PHONE_WAY_SLOTS ? (uint32_t)fresh : INSOLE_PHONE_WAY_SLOTS;
@@ -100,9 +100,9 @@ static bool has_direction(insole_turn_t sum)
     return insole_abs(sum.cos) + insole_abs(sum.sin) >= SHORTEST;
 }
 
-insole_status_t insole_phone_way_direction(const insole_phone_way_t *way,
-                                           const insole_footfall_t *footfall,
-                                           insole_real_t *direction_rad)
+INSOLE_COLD insole_status_t insole_phone_way_direction(const insole_phone_way_t *way,
+                                                       const insole_footfall_t *footfall,
+                                                       insole_real_t *direction_rad)
 {
     if (!way || !footfall || !direction_rad) {
         return INSOLE_ERR_NULL;
@@ -127,8 +127,9 @@ insole_status_t insole_phone_way_direction(const insole_phone_way_t *way,
 
 /* ---- steps ------------------------------------------------------------------------------ */
 
-insole_status_t insole_phone_way_go(insole_phone_way_t *way, const insole_footfall_t *footfall,
-                                    insole_spot_t displacement)
+INSOLE_COLD insole_status_t insole_phone_way_go(insole_phone_way_t *way,
+                                                const insole_footfall_t *footfall,
+                                                insole_spot_t displacement)
 {
     if (!way || !footfall) {
         return INSOLE_ERR_NULL;
@@ -152,12 +153,12 @@ static insole_real_t share_before(uint64_t begin_us, uint64_t end_us, uint64_t t
     return t_us >= end_us ? ONE : insole_seconds(begin_us, t_us) / insole_seconds(begin_us, end_us);
 }
 
-insole_real_t insole_phone_way_share(const insole_footfall_t *footfall, uint64_t t_us)
+INSOLE_COLD insole_real_t insole_phone_way_share(const insole_footfall_t *footfall, uint64_t t_us)
 {
     return share_before(footfall->begin_us, footfall->end_us, t_us);
 }
 
-insole_spot_t insole_phone_way_since(const insole_phone_way_t *way, uint64_t t_us)
+INSOLE_COLD insole_spot_t insole_phone_way_since(const insole_phone_way_t *way, uint64_t t_us)
 {
     insole_spot_t sum = {ZERO, ZERO};
     for (uint32_t i = way->ring.begin; i != way->ring.end; i++) {
@@ -168,7 +169,7 @@ insole_spot_t insole_phone_way_since(const insole_phone_way_t *way, uint64_t t_u
     return sum;
 }
 
-bool insole_phone_way_reaches(const insole_phone_way_t *way, uint64_t t_us)
+INSOLE_COLD bool insole_phone_way_reaches(const insole_phone_way_t *way, uint64_t t_us)
 {
     uint32_t oldest = insole_ring_slot(&way->ring, way->ring.begin);
     return !insole_ring_is_full(&way->ring) || way->steps[oldest].begin_us <= t_us;

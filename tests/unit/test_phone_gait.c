@@ -7,6 +7,7 @@
 
 #include "hand_walk.h"
 #include "refusal.h"
+#include "setting.h"
 #include "stroll.h"
 #include "suite.h"
 
@@ -15,6 +16,7 @@ enum { MOST_STEPS = 100, STROLL_RATE_HZ = 100, GENTLE = 0, HARD = 1 };
 #define ASIDE_RAD 1.2217304764 /* 70 degrees to the left */
 
 static insole_phone_walk_config_t config;
+static insole_phone_gait_config_t gait_config;
 static insole_phone_walk_t walk;
 static insole_attitude_t attitude;
 static insole_footfall_t footfalls[MOST_STEPS];
@@ -51,8 +53,9 @@ static void begin_stroll(bool has_carry)
     ck_assert_int_eq(insole_walk_heading_init(&heading, &insole_walk_heading_defaults), INSOLE_OK);
     other_heading = heading;
     ck_assert_int_eq(insole_carry_init(&carry, &insole_carry_defaults), INSOLE_OK);
-    ck_assert_int_eq(insole_phone_gait_init(&gait, &heading, has_carry ? &carry : NULL, &FOREST),
-                     INSOLE_OK);
+    ck_assert_int_eq(
+        insole_phone_gait_init(&gait, &gait_config, &heading, has_carry ? &carry : NULL, &FOREST),
+        INSOLE_OK);
     ck_assert_int_eq(insole_phone_walk_init(&walk, &config, &guide), INSOLE_OK);
 }
 
@@ -61,8 +64,9 @@ static void set_up_stroll(int32_t faces)
     config = insole_phone_walk_defaults;
     config.step_length.model = INSOLE_STEP_LENGTH_CONSTANT;
     config.step_length.constant_m = (insole_real_t)HAND_STEP_M;
-    config.faces = faces;
-    config.gait = 0;
+    gait_config = insole_phone_gait_defaults;
+    gait_config.faces = faces;
+    gait_config.gait = 0;
     ck_assert_int_eq(insole_attitude_init(&attitude, &insole_attitude_defaults), INSOLE_OK);
     attitude.aligned = true;
 }
@@ -191,7 +195,7 @@ START_TEST(by_the_step_it_has_the_direction_that_the_gait_told)
 {
     uint32_t apart = 0u, uncertain = 0u;
     set_up_stroll(1);
-    config.gait = 1;
+    gait_config.gait = 1;
     begin_stroll(false);
     stroll_on(20.0);
     ck_assert_uint_ge(step_count, 30u);
@@ -210,7 +214,7 @@ END_TEST
 START_TEST(a_phone_that_faces_ahead_has_its_own_direction)
 {
     set_up_stroll(0);
-    config.gait = _i;
+    gait_config.gait = _i;
     begin_stroll(false);
     stroll_on(15.0);
     expect_off(0u, step_count, ASIDE_RAD, 1e-3);
@@ -253,7 +257,7 @@ START_TEST(a_phone_tipped_over_is_learned_anew)
     const double then_rad = ASIDE_RAD - 1.0;
     bool forgot = false;
     set_up_stroll(1);
-    config.tipped_rad = (insole_real_t)tip->tipped_rad;
+    gait_config.tipped_rad = (insole_real_t)tip->tipped_rad;
     begin_stroll(false);
     stroll_on(15.0);
     ASSERT_AT_LEAST(known(), 1.0, "1/rad^2");
@@ -350,7 +354,7 @@ START_TEST(what_is_told_counts_more_than_the_position)
     stroll.bounce_m = _i % 2 == HARD ? HARD_BOUNCE_M : GENTLE_BOUNCE_M;
     stroll_until(_i % 2);
     stroll_on(5.0);
-    expect_off(0u, step_count, config.faces == 0 ? ASIDE_RAD : 0.0, _i < 2 ? 1e-3 : 0.2);
+    expect_off(0u, step_count, gait_config.faces == 0 ? ASIDE_RAD : 0.0, _i < 2 ? 1e-3 : 0.2);
 }
 END_TEST
 
@@ -360,8 +364,8 @@ START_TEST(steps_follow_the_position)
     bool is_asked = _i == 2;
     set_up_stroll(_i);
     config.step_length = insole_step_length_defaults;
-    config.length_ear = INSOLE_R(1.5);
-    config.rise_ear = INSOLE_R(0.5);
+    gait_config.length_ear = INSOLE_R(1.5);
+    gait_config.rise_ear = INSOLE_R(0.5);
     begin_stroll(true);
     stroll.bounce_m = HARD_BOUNCE_M;
     stroll_until(HARD);
@@ -386,14 +390,14 @@ END_TEST
 START_TEST(which_position_points_ahead_is_a_setting)
 {
     set_up_stroll(2);
-    config.ahead_position = _i < 2 ? -1 : HARD;
+    gait_config.ahead_position = _i < 2 ? -1 : HARD;
     begin_stroll(true);
     int32_t position = _i % 2;
     stroll.bounce_m = position == HARD ? HARD_BOUNCE_M : GENTLE_BOUNCE_M;
     stroll_until(position);
     uint32_t told = step_count;
     stroll_on(6.0);
-    expect_off(told, step_count, position == config.ahead_position ? ASIDE_RAD : 0.0, 0.2);
+    expect_off(told, step_count, position == gait_config.ahead_position ? ASIDE_RAD : 0.0, 0.2);
 }
 END_TEST
 
@@ -420,7 +424,7 @@ START_TEST(without_a_gait_the_position_changes_nothing)
 {
     set_up_stroll(1);
     begin_stroll(true);
-    ck_assert_int_eq(insole_phone_gait_init(&gait, NULL, &carry, &FOREST), INSOLE_OK);
+    ck_assert_int_eq(insole_phone_gait_init(&gait, &gait_config, NULL, &carry, &FOREST), INSOLE_OK);
     ck_assert_int_eq(insole_phone_walk_init(&walk, &config, &guide), INSOLE_OK);
     stroll.bounce_m = HARD_BOUNCE_M;
     stroll_until(HARD);
@@ -437,9 +441,10 @@ START_TEST(a_damaged_forest_is_refused)
     set_up_stroll(2);
     begin_stroll(true);
     stroll_on(3.0);
-    ASSERT_UNCHANGED(gait, insole_phone_gait_init(&gait, &heading, &carry, &DAMAGED),
+    ASSERT_UNCHANGED(gait, insole_phone_gait_init(&gait, &gait_config, &heading, &carry, &DAMAGED),
                      INSOLE_ERR_DATA);
-    ck_assert_int_eq(insole_phone_gait_init(NULL, &heading, &carry, &FOREST), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_phone_gait_init(NULL, &gait_config, &heading, &carry, &FOREST),
+                     INSOLE_ERR_NULL);
     /* one that is damaged later tells nothing, and the window waits */
     gait.forest = &DAMAGED;
     carry.window.is_new = true;
@@ -450,9 +455,30 @@ START_TEST(a_damaged_forest_is_refused)
 }
 END_TEST
 
+static insole_status_t judge(void)
+{
+    insole_phone_gait_t tried;
+    return insole_phone_gait_init(&tried, &gait_config, NULL, NULL, NULL);
+}
+
+START_TEST(every_setting_has_its_range)
+{
+    insole_phone_gait_config_t *part = &gait_config;
+    gait_config = insole_phone_gait_defaults;
+    ck_assert_int_eq(judge(), INSOLE_OK);
+    INSOLE_PHONE_GAIT_KEYS(SETTING_OF_PART_HAS_ENDS)
+    ck_assert_int_eq(insole_phone_gait_check(NULL), INSOLE_ERR_NULL);
+    ASSERT_UNCHANGED(gait, insole_phone_gait_init(&gait, NULL, NULL, NULL, NULL), INSOLE_ERR_NULL);
+    gait_config.gait_keep = (insole_real_t)NAN;
+    ASSERT_UNCHANGED(gait, insole_phone_gait_init(&gait, &gait_config, NULL, NULL, NULL),
+                     INSOLE_ERR_VALUE);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("phone_gait");
+    suite_add(suite, "settings", every_setting_has_its_range);
     suite_add(suite, "mean of the gait", a_phone_in_any_way_goes_by_the_mean_of_the_gait);
     suite_add(suite, "turns", turns_are_those_of_the_phone);
     suite_add(suite, "by the step", by_the_step_it_has_the_direction_that_the_gait_told);

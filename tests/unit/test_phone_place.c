@@ -795,10 +795,10 @@ START_TEST(every_setting_has_its_range)
     INSOLE_PHONE_PLACE_KEYS(SETTING_HAS_ENDS)
     set_up(&plain, true);
     start.method = INSOLE_AUTO_START_CIRCLES;
-    ASSERT_UNCHANGED(place,
-                     insole_phone_place_init(&place, &insole_phone_place_defaults, &start, NULL,
-                                             &plain, true),
-                     INSOLE_ERR_VALUE);
+    ASSERT_UNCHANGED(
+        place,
+        insole_phone_place_init(&place, &insole_phone_place_defaults, &start, NULL, &plain, true),
+        INSOLE_ERR_VALUE);
     ck_assert_int_eq(insole_phone_place_init(&place, &insole_phone_place_defaults, &start,
                                              &insole_circle_start_calls, &plain, true),
                      INSOLE_OK);

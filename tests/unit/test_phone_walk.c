@@ -152,7 +152,7 @@ START_TEST(bad_arguments_are_refused)
     ASSERT_UNCHANGED(walk, insole_phone_walk_next(&walk, NULL, &pace), INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(walk, insole_phone_walk_next(&walk, &footfall, NULL), INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(walk, insole_phone_walk_next(&walk, &footfall, &pace), INSOLE_ERR_STATE);
-    config.gait_keep = (insole_real_t)NAN;
+    config.sigma_ahead_rad = (insole_real_t)NAN;
     ASSERT_UNCHANGED(walk, insole_phone_walk_init(&walk, &config, NULL), INSOLE_ERR_VALUE);
     bad.accel_mps2.x = (insole_real_t)NAN;
     ck_assert_int_eq(insole_phone_walk_push(&walk, &attitude, &bad), INSOLE_ERR_VALUE);

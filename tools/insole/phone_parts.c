@@ -148,8 +148,8 @@ static bool set_up_states(phone_parts_t *parts, const phone_settings_t *settings
     return insole_magnetic_init(&parts->magnetic, &settings->magnetic) == INSOLE_OK &&
            insole_walk_heading_init(&parts->walk_heading, &settings->walk_heading) == INSOLE_OK &&
            insole_carry_init(&parts->carry, &settings->carry) == INSOLE_OK &&
-           insole_phone_gait_init(&parts->gait, &parts->walk_heading, &parts->carry,
-                                  &insole_carry_table_forest) == INSOLE_OK &&
+           insole_phone_gait_init(&parts->gait, &settings->gait, &parts->walk_heading,
+                                  &parts->carry, &insole_carry_table_forest) == INSOLE_OK &&
            insole_kde_fix_init(&parts->kde_fix, &settings->kde_fix) == INSOLE_OK &&
            insole_ml_fix_init(&parts->ml_fix, &settings->ml_fix) == INSOLE_OK &&
            insole_step_fusion_init(&parts->step_fusion, &fusion) == INSOLE_OK &&

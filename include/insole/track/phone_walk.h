@@ -37,23 +37,7 @@ extern "C" {
     KEY(REAL, sigma_ahead_rad, 0.07, 0.0, 1.0, "rad",                                             \
         "1-sigma between where the phone points and where a step goes")                           \
     KEY(INT, shown_steps, 2, 1, 9, "steps",                                                       \
-        "so many peaks in a row are shown before it is sure that this is a walk; 9 = never")      \
-    KEY(CHOICE, faces, 2, 0, 2, "ahead|any|carried",                                              \
-        "the phone points ahead, or lies in any way, or as its carrying position tells")          \
-    KEY(CHOICE, gait, 0, 0, 1, "mean|step", "whose direction a step has that goes by the gait")   \
-    KEY(REAL, gait_keep, 0.93, 0.0, 0.999, "", "kept from step to step of that mean")             \
-    KEY(REAL, sigma_gait_rad, 0.1, 0.0, 3.0, "rad", "1-sigma of the best mean")                   \
-    KEY(REAL, tipped_rad, 0.9, 0.1, 3.2, "rad", "a phone tipped over by so much is carried anew") \
-    KEY(INT, ahead_position, 0, -1, 7, "",                                                        \
-        "carrying position in which a phone points ahead, by its number in the table; -1 = none") \
-    KEY(REAL, length_ear, 1.08, 0.2, 5.0, "",                                                     \
-        "in position 1, the ear, steps are so many times as long as step_length has them")        \
-    KEY(REAL, length_swing, 1.17, 0.2, 5.0, "", "in position 2, a hand that swings")              \
-    KEY(REAL, length_pocket, 1.07, 0.2, 5.0, "", "in position 3, a pocket")                       \
-    KEY(REAL, rise_ear, 1.0, 0.0, 3.0, "", "times step.rise_share, in position 1")                \
-    KEY(REAL, rise_swing, 0.45, 0.0, 3.0, "",                                                     \
-        "in position 2: an arm that swings unevenly makes every other peak a low one")            \
-    KEY(REAL, rise_pocket, 1.0, 0.0, 3.0, "", "in position 3")
+        "so many peaks in a row are shown before it is sure that this is a walk; 9 = never")
 /* clang-format on */
 
 typedef struct {
