@@ -209,7 +209,7 @@ INSOLE_COLD static void begin_after_gap(insole_foot_fusion_t *f, const insole_fi
 }
 
 /* After a gap radio may say more than the way; it is not waited for long. */
-static void cross_gap(insole_foot_fusion_t *f, const insole_fix_t *foot)
+INSOLE_COLD static void cross_gap(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
     insole_fusion_site_t site = site_of(f);
     bool waits = insole_fusion_radio_has_aps(&site) && !f->radio.has_fix &&
@@ -246,7 +246,7 @@ INSOLE_COLD static void tell_stride(insole_foot_fusion_t *f, const insole_fix_t 
     }
 }
 
-static void gather_stride(insole_foot_fusion_t *f)
+INSOLE_COLD static void gather_stride(insole_foot_fusion_t *f)
 {
     insole_stride_t stride;
     if (insole_foot_tracker_stride(&f->foot, &stride) == INSOLE_OK && f->counts.starts > 0u) {
@@ -261,7 +261,7 @@ static bool has_news(const insole_foot_fusion_t *f, uint64_t t_us)
            insole_fusion_radio_waits(&f->radio, t_us > PATIENCE_US ? t_us - PATIENCE_US : 0u);
 }
 
-static void tell(insole_foot_fusion_t *f, const insole_fix_t *foot)
+INSOLE_COLD static void tell(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
     if (f->working || f->counts.starts == 0u || f->gap.is_open || !has_news(f, foot->t_us)) {
         return;
