@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/foot_fusion.h"
 
+#include <stddef.h>
+#include <string.h>
+
 #include "insole/track/fusion_fix.h"
 
 #define ZERO INSOLE_R(0.0)
@@ -18,6 +21,16 @@ static const insole_fusion_unknown_t STRAY = {INSOLE_R(25.0), INSOLE_R(0.1)};
 /* A heading told so vaguely is compared with the first stride alone. */
 #define VAGUE_RAD INSOLE_R(0.3)
 
+static insole_foot_fusion_own_t own_of(const insole_foot_fusion_config_t *config)
+{
+    insole_foot_fusion_own_t own;
+    memcpy(&own, config,
+           offsetof(insole_foot_fusion_own_t, rss_fix)); /* both begin with the list */
+    own.rss_fix = config->rss_fix;
+    own.range_fix = config->range_fix;
+    return own;
+}
+
 INSOLE_COLD insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion,
                                                     const insole_foot_fusion_config_t *config,
                                                     const insole_fusion_memory_t *memory,
@@ -32,7 +45,10 @@ INSOLE_COLD insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion
     if (status != INSOLE_OK) {
         return status;
     }
-    *fusion = (insole_foot_fusion_t){.config = *config, .memory = *memory, .building = building};
+    memset(fusion, 0, sizeof *fusion);
+    fusion->config = own_of(config);
+    fusion->memory = *memory;
+    fusion->building = building;
     bool printed = config->method == INSOLE_FUSION_TWO_ORDER;
     (void)insole_foot_tracker_init(&fusion->foot, &config->foot);
     return insole_particle_filter_init(&fusion->particles,

@@ -50,7 +50,7 @@ typedef struct {
 } insole_foot_fusion_counts_t;
 
 typedef struct {
-    insole_foot_fusion_config_t config;
+    insole_foot_fusion_own_t config;
     insole_foot_fusion_counts_t counts;
     insole_foot_tracker_t foot;
     insole_particle_filter_t particles;

@@ -53,6 +53,13 @@ typedef struct {
     insole_range_fix_config_t range_fix;
 } insole_foot_fusion_config_t;
 
+/** The fusion's own, which it keeps, and those of radio alone; its parts keep theirs. */
+typedef struct {
+    INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_MEMBER)
+    insole_rss_fix_config_t rss_fix;
+    insole_range_fix_config_t range_fix;
+} insole_foot_fusion_own_t;
+
 extern const insole_foot_fusion_config_t insole_foot_fusion_defaults;
 
 /** What the caller lends. What is not lent is not linked either. */
