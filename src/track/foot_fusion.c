@@ -247,7 +247,7 @@ static void begin_if_possible(insole_foot_fusion_t *f, const insole_fix_t *foot)
     }
 }
 
-INSOLE_COLD static void tell_stride(insole_foot_fusion_t *f, const insole_fix_t *foot)
+static void tell_stride(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
     insole_spot_t end = {f->foot.strides.origin_m.x, f->foot.strides.origin_m.y};
     bool printed = f->config.method == INSOLE_FUSION_TWO_ORDER;

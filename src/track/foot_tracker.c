@@ -244,7 +244,7 @@ static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
 /* ---- gaps ------------------------------------------------------------------------------- */
 
 /* A short gap: the rates in it lie between those at its ends, more or less. */
-INSOLE_COLD static void bridge(insole_foot_tracker_t *t, insole_labelled_t *s)
+static void bridge(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
     insole_zupt_ekf_t *ekf = &t->zupt_ekf;
     insole_vec3_t accel = insole_vec3_add(ekf->last_accel_mps2, ekf->accel_bias_mps2);
@@ -261,7 +261,7 @@ INSOLE_COLD static void bridge(insole_foot_tracker_t *t, insole_labelled_t *s)
 }
 
 /* A long gap: attitude and velocity are worth nothing until the foot stands again. */
-INSOLE_COLD static void begin_coast(insole_foot_tracker_t *t)
+static void begin_coast(insole_foot_tracker_t *t)
 {
     t->coasting = true;
     t->still_count = 0u;

@@ -227,6 +227,16 @@ INSOLE_COLD static void place_moment(insole_fusion_radio_t *radio, const insole_
     site->ranges->solve(radio, site, first, count, n_m);
 }
 
+INSOLE_COLD static void place_scan(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
+                                   insole_spot_t n_m)
+{
+    radio->counts.unused += radio->scan.waits ? 1u : 0u;
+    radio->scan = radio->arrived;
+    radio->scan.n_m = n_m;
+    radio->arrived.waits = false;
+    solve_scan(radio, site, &radio->scan);
+}
+
 insole_status_t insole_fusion_radio_place(insole_fusion_radio_t *radio,
                                           const insole_fusion_site_t *site, uint64_t t_us,
                                           insole_spot_t n_m)
@@ -236,11 +246,7 @@ insole_status_t insole_fusion_radio_place(insole_fusion_radio_t *radio,
         return status == INSOLE_ERR_NULL ? status : INSOLE_ERR_VALUE;
     }
     if (status == INSOLE_OK && radio->arrived.waits && t_us >= radio->arrived.t_us) {
-        radio->counts.unused += radio->scan.waits ? 1u : 0u;
-        radio->scan = radio->arrived;
-        radio->scan.n_m = n_m;
-        radio->arrived.waits = false;
-        solve_scan(radio, site, &radio->scan);
+        place_scan(radio, site, n_m);
     }
     while (status == INSOLE_OK && site->ranges && is_next_moment(&radio->ranges, t_us)) {
         place_moment(radio, site, n_m);

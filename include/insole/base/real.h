@@ -37,7 +37,7 @@ typedef float insole_real_t;
 /** Before a function that runs seldom, once a stride or less: it and what only it calls are to be
  *  small rather than fast. */
 #ifdef __GNUC__
-#define INSOLE_COLD __attribute__((cold))
+#define INSOLE_COLD __attribute__((cold, noinline))
 #else
 #define INSOLE_COLD
 #endif
