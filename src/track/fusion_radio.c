@@ -260,12 +260,6 @@ bool insole_fusion_radio_waits(const insole_fusion_radio_t *radio, uint64_t befo
                      (radio->ranges.placed > 0u && radio->ranges.range[0].t_us <= before_us));
 }
 
-static insole_spot_t way(insole_spot_t from, insole_spot_t to)
-{
-    insole_spot_t between = {to.x_m - from.x_m, to.y_m - from.y_m};
-    return between;
-}
-
 /* The strongest access point, if it is near: its range by (11), weighed by (39). */
 static void tell_nearest(const insole_fusion_scan_t *scan, const insole_fusion_site_t *site,
                          insole_spot_t since, insole_evidence_t *evidence)
@@ -297,13 +291,15 @@ INSOLE_COLD insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radi
     insole_fusion_scan_t *scan = &radio->scan;
     insole_fusion_ranges_t *ranges = &radio->ranges;
     if (scan->waits && site->nearest_only) {
-        tell_nearest(scan, site, way(scan->n_m, end_n_m), evidence);
+        tell_nearest(scan, site, insole_spot_sub(end_n_m, scan->n_m), evidence);
     } else if (scan->waits) {
-        (void)insole_evidence_scan(evidence, scan->readings, scan->count, way(scan->n_m, end_n_m));
+        (void)insole_evidence_scan(evidence, scan->readings, scan->count,
+                                   insole_spot_sub(end_n_m, scan->n_m));
     }
     scan->waits = false;
     for (uint32_t i = 0u; site->ranges && i < ranges->placed; i++) {
-        site->ranges->tell(&ranges->range[i], site, way(ranges->n_m[i], end_n_m), evidence);
+        site->ranges->tell(&ranges->range[i], site, insole_spot_sub(end_n_m, ranges->n_m[i]),
+                           evidence);
     }
     drop_ranges(ranges, ranges->placed);
     return INSOLE_OK;
@@ -371,7 +367,7 @@ INSOLE_COLD insole_status_t insole_fusion_radio_mix(const insole_fusion_radio_t 
         return INSOLE_ERR_STATE;
     }
     insole_real_t share = var_m2 / (var_m2 + radio_m2);
-    insole_spot_t gone = insole_turn_way(turn, way(radio->fix_n_m, n_m));
+    insole_spot_t gone = insole_turn_way(turn, insole_spot_sub(n_m, radio->fix_n_m));
     fix->position_m.x += share * (radio->fix.x_m + gone.x_m - fix->position_m.x);
     fix->position_m.y += share * (radio->fix.y_m + gone.y_m - fix->position_m.y);
     fix->var_x_m2 = fix->var_y_m2 = share * radio_m2;
