@@ -233,7 +233,7 @@ INSOLE_COLD insole_status_t insole_evidence_rss(insole_evidence_t *evidence,
     return INSOLE_OK;
 }
 
-void insole_evidence_turn(insole_evidence_t *evidence, insole_turn_t turn)
+INSOLE_COLD void insole_evidence_turn(insole_evidence_t *evidence, insole_turn_t turn)
 {
     if (!evidence) {
         return;

@@ -102,8 +102,7 @@ static void learn_axis(insole_real_t *bias, insole_real_t *variance, insole_real
     *variance *= INSOLE_R(1.0) - gain;
 }
 
-INSOLE_COLD static void learn_bias(insole_still_bias_t *rest, insole_vec3_t measured,
-                                   insole_real_t apart)
+static void learn_bias(insole_still_bias_t *rest, insole_vec3_t measured, insole_real_t apart)
 {
     const insole_still_bias_config_t *c = &rest->config;
     insole_real_t var =
@@ -114,7 +113,7 @@ INSOLE_COLD static void learn_bias(insole_still_bias_t *rest, insole_vec3_t meas
     rest->rests++;
 }
 
-INSOLE_COLD static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
+static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
 {
     insole_real_t since_s = insole_seconds(rest->first_us, rest->last_us);
     insole_real_t g = insole_vec3_norm(mean_accel);

@@ -108,12 +108,6 @@ static void find_ends(insole_foot_late_t *late, const insole_late_row_t *row,
     late->start = row->start;
 }
 
-static insole_spot_t way(insole_spot_t from, insole_spot_t to)
-{
-    insole_spot_t between = {to.x_m - from.x_m, to.y_m - from.y_m};
-    return between;
-}
-
 /* What turns and stretches the way in n into the way in m: a division of complex numbers. */
 static insole_turn_t turn_between(insole_spot_t n, insole_spot_t m, insole_turn_t otherwise)
 {
@@ -135,9 +129,10 @@ static void correct(const insole_foot_late_t *late, const insole_late_row_t *row
     insole_turn_t turn = insole_turn(cloud->offset_rad);
     if (late->has_end) {
         insole_spot_t end_n = late->end_n_m[(row->stride + 1u) % INSOLE_LATE_STRIDES];
-        turn = turn_between(way(begin_n, end_n), way(late->begin_m_m, late->end_m_m), turn);
+        turn = turn_between(insole_spot_sub(end_n, begin_n),
+                            insole_spot_sub(late->end_m_m, late->begin_m_m), turn);
     }
-    insole_spot_t gone = insole_turn_way(turn, way(begin_n, row->n_m));
+    insole_spot_t gone = insole_turn_way(turn, insole_spot_sub(row->n_m, begin_n));
     fix->position_m.x = late->begin_m_m.x_m + gone.x_m;
     fix->position_m.y = late->begin_m_m.y_m + gone.y_m;
 }

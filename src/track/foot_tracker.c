@@ -20,7 +20,7 @@ INSOLE_COLD insole_status_t insole_foot_tracker_init(insole_foot_tracker_t *trac
         return status;
     }
     memset(tracker, 0, sizeof *tracker);
-    tracker->config = *config;
+    memcpy(&tracker->config, config, sizeof tracker->config); /* both begin with the list */
     (void)insole_screen_init(&tracker->screen, &config->screen);
     (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
     (void)insole_zero_velocity_init(&tracker->zero_velocity, &config->zero_velocity);
@@ -123,7 +123,7 @@ INSOLE_COLD static bool align(insole_foot_tracker_t *t, const insole_labelled_t 
 INSOLE_COLD static void align_first(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
     bool rest = s->plain && s->imu.t_us - t->still_since_us > 0u && t->still_bias.rests > 0u;
-    insole_real_t tilt = rest ? t->config.zupt_ekf.sigma_tilt_rad : t->config.sigma_moving_tilt_rad;
+    insole_real_t tilt = rest ? t->zupt_ekf.config.sigma_tilt_rad : t->config.sigma_moving_tilt_rad;
     insole_vec3_t mean_accel;
     if (align(t, s, tilt, &mean_accel)) {
         t->counts.aligned_moving = !rest;
@@ -244,7 +244,7 @@ static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
 /* ---- gaps ------------------------------------------------------------------------------- */
 
 /* A short gap: the rates in it lie between those at its ends, more or less. */
-INSOLE_COLD static void bridge(insole_foot_tracker_t *t, insole_labelled_t *s)
+static void bridge(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
     insole_zupt_ekf_t *ekf = &t->zupt_ekf;
     insole_vec3_t accel = insole_vec3_add(ekf->last_accel_mps2, ekf->accel_bias_mps2);
@@ -261,7 +261,7 @@ INSOLE_COLD static void bridge(insole_foot_tracker_t *t, insole_labelled_t *s)
 }
 
 /* A long gap: attitude and velocity are worth nothing until the foot stands again. */
-INSOLE_COLD static void begin_coast(insole_foot_tracker_t *t)
+static void begin_coast(insole_foot_tracker_t *t)
 {
     t->coasting = true;
     t->still_count = 0u;

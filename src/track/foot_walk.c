@@ -58,8 +58,9 @@ INSOLE_COLD insole_status_t insole_foot_walk_stride(insole_foot_walk_t *walk,
     walk->heading_rad = stride->heading_rad;
     walk->stride_us = t_us;
     walk->has_stride = true;
-    walk->place_m.x += length_m * insole_cos(stride->heading_rad);
-    walk->place_m.y += length_m * insole_sin(stride->heading_rad);
+    insole_turn_t ahead = insole_turn(stride->heading_rad);
+    walk->place_m.x += length_m * ahead.cos;
+    walk->place_m.y += length_m * ahead.sin;
     walk->place_m.z += stride->displacement_m.z;
     walk->place_m2 += insole_square(MODEL_ERROR_SHARE * length_m);
     return INSOLE_OK;

@@ -38,13 +38,13 @@ INSOLE_COLD insole_status_t insole_fusion_config_check(const insole_foot_fusion_
 }
 
 INSOLE_COLD insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,
-                                                       insole_real_t lag_s)
+                                                       const insole_foot_fusion_config_t *config)
 {
-    if (!memory) {
+    if (!memory || !config || (config->lag_s > INSOLE_R(0.0) && !memory->past)) {
         return INSOLE_ERR_NULL;
     }
-    bool is_late = lag_s > INSOLE_R(0.0);
-    if (is_late && (!memory->past || !memory->late || memory->late_count == 0u)) {
+    bool is_patient = config->method == INSOLE_FUSION_BEST && config->start_fixes > 1;
+    if (is_patient && !(memory->starter.hear && memory->starter.state)) {
         return INSOLE_ERR_NULL;
     }
     insole_cloud_t cloud = insole_fusion_cloud(memory);

@@ -136,6 +136,13 @@ static void keep_range(insole_fusion_radio_t *radio, const insole_range_t *range
     kept->range[kept->count++] = *range;
 }
 
+struct insole_fusion_range_calls {
+    void (*solve)(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
+                  const insole_range_t *ranges, uint32_t count, insole_spot_t n_m);
+    void (*tell)(const insole_range_t *range, const insole_fusion_site_t *site, insole_spot_t since,
+                 insole_evidence_t *evidence);
+};
+
 /* What ranges of one moment say, and what is remembered of those before. */
 INSOLE_COLD static void solve_ranges(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
                                      const insole_range_t *ranges, uint32_t count,
@@ -153,6 +160,23 @@ INSOLE_COLD static void solve_ranges(insole_fusion_radio_t *radio, const insole_
     }
 }
 
+INSOLE_COLD static void tell_range(const insole_range_t *range, const insole_fusion_site_t *site,
+                                   insole_spot_t since, insole_evidence_t *evidence)
+{
+    const insole_range_fix_config_t *config = site->range_fix;
+    const insole_ap_t *ap = &site->building->aps[range->id];
+    insole_real_t told_m = range->sigma_m > ZERO ? range->sigma_m : ZERO;
+    insole_real_t var_m2 = insole_square(config->sigma_m) + insole_square(told_m);
+    insole_evidence_range_t told = {{ap->x_m, ap->y_m},
+                                    since,
+                                    insole_max(ZERO, range->range_m - config->bias_m),
+                                    insole_sqrt(var_m2),
+                                    RANGE_TAIL_DOF};
+    (void)insole_evidence_range(evidence, &told);
+}
+
+const insole_fusion_range_calls_t insole_fusion_range_calls = {solve_ranges, tell_range};
+
 INSOLE_COLD insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *radio,
                                                       const insole_fusion_site_t *site,
                                                       const insole_range_t *ranges, uint32_t count)
@@ -164,6 +188,9 @@ INSOLE_COLD insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *rad
     if (status != INSOLE_OK) {
         return status;
     }
+    if (!site->ranges) {
+        return INSOLE_ERR_STATE;
+    }
     for (uint32_t i = 0u; i < count; i++) {
         bool usable = is_usable(site, &ranges[i]);
         radio->counts.ranges++;
@@ -174,7 +201,7 @@ INSOLE_COLD insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *rad
     }
     if (count > 0u && site->at_once) {
         static const insole_spot_t nowhere = {ZERO, ZERO};
-        solve_ranges(radio, site, ranges, count, nowhere);
+        site->ranges->solve(radio, site, ranges, count, nowhere);
     }
     return INSOLE_OK;
 }
@@ -197,7 +224,17 @@ INSOLE_COLD static void place_moment(insole_fusion_radio_t *radio, const insole_
         ranges->n_m[ranges->placed + count] = n_m;
     }
     ranges->placed += count;
-    solve_ranges(radio, site, first, count, n_m);
+    site->ranges->solve(radio, site, first, count, n_m);
+}
+
+INSOLE_COLD static void place_scan(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
+                                   insole_spot_t n_m)
+{
+    radio->counts.unused += radio->scan.waits ? 1u : 0u;
+    radio->scan = radio->arrived;
+    radio->scan.n_m = n_m;
+    radio->arrived.waits = false;
+    solve_scan(radio, site, &radio->scan);
 }
 
 insole_status_t insole_fusion_radio_place(insole_fusion_radio_t *radio,
@@ -209,13 +246,9 @@ insole_status_t insole_fusion_radio_place(insole_fusion_radio_t *radio,
         return status == INSOLE_ERR_NULL ? status : INSOLE_ERR_VALUE;
     }
     if (status == INSOLE_OK && radio->arrived.waits && t_us >= radio->arrived.t_us) {
-        radio->counts.unused += radio->scan.waits ? 1u : 0u;
-        radio->scan = radio->arrived;
-        radio->scan.n_m = n_m;
-        radio->arrived.waits = false;
-        solve_scan(radio, site, &radio->scan);
+        place_scan(radio, site, n_m);
     }
-    while (status == INSOLE_OK && is_next_moment(&radio->ranges, t_us)) {
+    while (status == INSOLE_OK && site->ranges && is_next_moment(&radio->ranges, t_us)) {
         place_moment(radio, site, n_m);
     }
     return INSOLE_OK;
@@ -225,12 +258,6 @@ bool insole_fusion_radio_waits(const insole_fusion_radio_t *radio, uint64_t befo
 {
     return radio && ((radio->scan.waits && radio->scan.t_us <= before_us) ||
                      (radio->ranges.placed > 0u && radio->ranges.range[0].t_us <= before_us));
-}
-
-static insole_spot_t way(insole_spot_t from, insole_spot_t to)
-{
-    insole_spot_t between = {to.x_m - from.x_m, to.y_m - from.y_m};
-    return between;
 }
 
 /* The strongest access point, if it is near: its range by (11), weighed by (39). */
@@ -253,21 +280,6 @@ static void tell_nearest(const insole_fusion_scan_t *scan, const insole_fusion_s
     }
 }
 
-static void tell_range(const insole_range_t *range, const insole_fusion_site_t *site,
-                       insole_spot_t since, insole_evidence_t *evidence)
-{
-    const insole_range_fix_config_t *config = site->range_fix;
-    const insole_ap_t *ap = &site->building->aps[range->id];
-    insole_real_t told_m = range->sigma_m > ZERO ? range->sigma_m : ZERO;
-    insole_real_t var_m2 = insole_square(config->sigma_m) + insole_square(told_m);
-    insole_evidence_range_t told = {{ap->x_m, ap->y_m},
-                                    since,
-                                    insole_max(ZERO, range->range_m - config->bias_m),
-                                    insole_sqrt(var_m2),
-                                    RANGE_TAIL_DOF};
-    (void)insole_evidence_range(evidence, &told);
-}
-
 INSOLE_COLD insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radio,
                                                      const insole_fusion_site_t *site,
                                                      insole_spot_t end_n_m,
@@ -279,13 +291,15 @@ INSOLE_COLD insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radi
     insole_fusion_scan_t *scan = &radio->scan;
     insole_fusion_ranges_t *ranges = &radio->ranges;
     if (scan->waits && site->nearest_only) {
-        tell_nearest(scan, site, way(scan->n_m, end_n_m), evidence);
+        tell_nearest(scan, site, insole_spot_sub(end_n_m, scan->n_m), evidence);
     } else if (scan->waits) {
-        (void)insole_evidence_scan(evidence, scan->readings, scan->count, way(scan->n_m, end_n_m));
+        (void)insole_evidence_scan(evidence, scan->readings, scan->count,
+                                   insole_spot_sub(end_n_m, scan->n_m));
     }
     scan->waits = false;
-    for (uint32_t i = 0u; i < ranges->placed; i++) {
-        tell_range(&ranges->range[i], site, way(ranges->n_m[i], end_n_m), evidence);
+    for (uint32_t i = 0u; site->ranges && i < ranges->placed; i++) {
+        site->ranges->tell(&ranges->range[i], site, insole_spot_sub(end_n_m, ranges->n_m[i]),
+                           evidence);
     }
     drop_ranges(ranges, ranges->placed);
     return INSOLE_OK;
@@ -353,7 +367,7 @@ INSOLE_COLD insole_status_t insole_fusion_radio_mix(const insole_fusion_radio_t 
         return INSOLE_ERR_STATE;
     }
     insole_real_t share = var_m2 / (var_m2 + radio_m2);
-    insole_spot_t gone = insole_turn_way(turn, way(radio->fix_n_m, n_m));
+    insole_spot_t gone = insole_turn_way(turn, insole_spot_sub(n_m, radio->fix_n_m));
     fix->position_m.x += share * (radio->fix.x_m + gone.x_m - fix->position_m.x);
     fix->position_m.y += share * (radio->fix.y_m + gone.y_m - fix->position_m.y);
     fix->var_x_m2 = fix->var_y_m2 = share * radio_m2;
