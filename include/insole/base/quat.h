@@ -80,7 +80,8 @@ static inline insole_quat_t insole_quat_from_small(insole_vec3_t half_rad, insol
         c = one - z * (one / INSOLE_R(30.0)) * (one - z * (one / INSOLE_R(56.0)));
         s = one - z * (one / INSOLE_R(42.0)) * (one - z * (one / INSOLE_R(72.0)));
     }
-    c = one - z * INSOLE_R(0.5) * (one - z * (one / INSOLE_R(12.0)) * c); /* cos(half) */
+    insole_real_t y = z * INSOLE_R(0.5);
+    c = one - y * (one - y * (one / INSOLE_R(6.0)) * c); /* cos(half) */
     s = one - z * (one / INSOLE_R(6.0)) * (one - z * (one / INSOLE_R(20.0)) * s);
     return insole_quat(c, s * half_rad.x, s * half_rad.y, s * half_rad.z);
 }
