@@ -24,7 +24,7 @@ static const insole_real_t LEAST_SIGMA_M = INSOLE_R(1.0e-4), MOST_SIGMA_M = INSO
 const insole_zupt_ekf_config_t insole_zupt_ekf_defaults = {
     INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_DEFAULT)};
 
-static insole_status_t refuse(insole_zupt_ekf_t *ekf, insole_status_t why)
+INSOLE_COLD static insole_status_t refuse(insole_zupt_ekf_t *ekf, insole_status_t why)
 {
     ekf->refused++;
     return why;
@@ -172,14 +172,12 @@ static void gather_noise(insole_zupt_ekf_t *ekf, insole_real_t turn2, insole_rea
 {
     ekf->noise.time_s += dt;
     ekf->noise.turned_rad2ps += turn2 * dt;
-    ekf->noise.samples++;
 }
 
 static void add_noise(insole_zupt_ekf_t *ekf)
 {
-    static const insole_zupt_noise_t none;
     const insole_zupt_ekf_config_t *c = &ekf->config;
-    const insole_zupt_noise_t *noise = &ekf->noise;
+    insole_zupt_noise_t *noise = &ekf->noise;
     insole_real_t attitude = insole_square(c->gyro_noise_rad_rts) * noise->time_s +
                              insole_square(c->gyro_turn_noise_rts) * noise->turned_rad2ps;
     insole_real_t velocity = insole_square(c->accel_noise_mps_rts) * noise->time_s;
@@ -189,15 +187,17 @@ static void add_noise(insole_zupt_ekf_t *ekf)
         insole_real_t bias = insole_square(c->accel_bias_walk_mps2_rts) * noise->time_s;
         ekf->P.bb = insole_sym3_add_diagonal(ekf->P.bb, bias);
     }
-    ekf->noise = none;
+    noise->time_s = noise->turned_rad2ps = ZERO;
+    noise->clip_rad2 = insole_sym3_zero();
+    noise->samples = 0u;
 }
 
 /* Rounding has had no time to be seen in the quaternion's length. */
-INSOLE_COLD static void end_block(insole_zupt_ekf_t *ekf)
+INSOLE_FLAT static void end_block(insole_zupt_ekf_t *ekf)
 {
     add_noise(ekf);
-    ekf->q = insole_quat_normalize(ekf->q);
-    ekf->trace.q = ekf->q;
+    insole_quat_t q = insole_quat_unit(ekf->q);
+    ekf->q = ekf->trace.q = q;
 }
 
 INSOLE_FLAT insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu_t *imu,
@@ -229,22 +229,24 @@ INSOLE_FLAT insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, cons
         gather_clip_noise(ekf, clipped);
     }
     insole_zupt_cov_propagate(&ekf->P, u, &ekf->C, dt, has_bias(ekf));
-    if (ekf->noise.samples >= NOISE_BLOCK) {
+    if (++ekf->noise.samples >= NOISE_BLOCK) {
         end_block(ekf);
     }
     return INSOLE_OK;
 }
 
 /* (28)-(31): the nominal state takes the error, whose estimate is zero again. */
-static void inject(insole_zupt_ekf_t *ekf, const insole_zupt_error_t *dx)
+static void inject(insole_zupt_ekf_t *ekf, const insole_zupt_error_t *dx, bool biased)
 {
+    if (biased) {
+        ekf->accel_bias_mps2 = insole_vec3_add(ekf->accel_bias_mps2, dx->b);
+    }
     ekf->p_m = insole_vec3_add(ekf->p_m, dx->p); /* [TwoOrder (29)] */
     ekf->v_mps = insole_vec3_add(ekf->v_mps, dx->v);
-    ekf->accel_bias_mps2 = insole_vec3_add(ekf->accel_bias_mps2, dx->b);
     /* (2I + Omega)(2I - Omega)^-1 is the rotation of the quaternion (1, a/2) made unit. */
     insole_vec3_t half = insole_vec3_scale(dx->a, INSOLE_R(0.5));
     insole_quat_t cayley = insole_quat(INSOLE_R(1.0), half.x, half.y, half.z);
-    ekf->q = insole_quat_normalize(insole_quat_mul(cayley, ekf->q)); /* [TwoOrder (30)-(31)] */
+    ekf->q = insole_quat_unit(insole_quat_mul(cayley, ekf->q)); /* [TwoOrder (30)-(31)] */
     ekf->C = insole_quat_to_mat3(ekf->q);
 }
 
@@ -274,11 +276,12 @@ INSOLE_FLAT insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, inso
     ekf->trace.velocity_mps = rolling_velocity(ekf);
     ekf->trace.velocity_var_m2ps2 = r;
     insole_vec3_t z = insole_vec3_sub(ekf->trace.velocity_mps, ekf->v_mps);
-    insole_zupt_error_t dx = insole_zupt_cov_correct_velocity(&ekf->P, W, r, z, has_bias(ekf));
-    inject(ekf, &dx);
     if (nis) {
         *nis = insole_vec3_dot(z, insole_sym3_mul_vec(W, z)); /* z' S^-1 z */
     }
+    bool biased = has_bias(ekf);
+    insole_zupt_error_t dx = insole_zupt_cov_correct_velocity(&ekf->P, W, r, z, biased);
+    inject(ekf, &dx, biased);
     return INSOLE_OK;
 }
 
@@ -300,7 +303,7 @@ insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ekf, insole_re
     insole_zupt_error_t column = insole_zupt_cov_of_height(&ekf->P);
     insole_zupt_error_t dx = insole_zupt_error_scale(column, (height_m - ekf->p_m.z) * per_s);
     insole_zupt_cov_correct_height(&ekf->P, r);
-    inject(ekf, &dx);
+    inject(ekf, &dx, has_bias(ekf));
     ekf->trace.height_m = height_m;
     ekf->trace.height_var_m2 = r;
     return INSOLE_OK;

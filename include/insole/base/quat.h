@@ -89,6 +89,17 @@ static inline insole_quat_t insole_quat_from_small(insole_vec3_t half_rad, insol
 /** To unit length; a quaternion of no length becomes the identity. */
 insole_quat_t insole_quat_normalize(insole_quat_t q);
 
+/** The same in line, for what runs on each sample. */
+static inline insole_quat_t insole_quat_unit(insole_quat_t q)
+{
+    insole_real_t n = insole_sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (!(n > INSOLE_R(0.0) && n <= INSOLE_REAL_MAX)) {
+        return insole_quat_identity();
+    }
+    insole_real_t s = INSOLE_R(1.0) / n;
+    return insole_quat(q.w * s, q.x * s, q.y * s, q.z * s);
+}
+
 /** Rotation by the angle |v| about v [rad]. */
 insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad);
 
