@@ -15,7 +15,7 @@ static void gain_rows(insole_zupt_cov_t *P, const insole_mat3_t *G, const insole
     P->vb = *vb;
 }
 
-/* First the rows of p, then those of v; [TwoOrder (24)] with the bias. */
+/* First the rows of p, then those of v. */
 INSOLE_FLAT void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P, insole_vec3_t u,
                                                 const insole_mat3_t *C, insole_real_t dt_s)
 {

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#define ZERO    INSOLE_R(0.0)
-#define SIXTH   (INSOLE_R(1.0) / INSOLE_R(6.0))
+#define ZERO  INSOLE_R(0.0)
+#define SIXTH (INSOLE_R(1.0) / INSOLE_R(6.0))
 
 /* Long enough that a block of yaw noise is not lost to rounding beside a day's yaw variance, short
  * enough that noise of a swing still turns into velocity within the swing. */

@@ -66,7 +66,8 @@ static inline void insole_zupt_move_rows(insole_zupt_cov_t *P, insole_vec3_t u, 
     pp->zz += dt * (z.z + zz);
 }
 
-/* The rows of v' = v - U a. */
+/* The rows of v' = v - U a: a row r of P_va gives r x u to that of P_vv, one half the old and one
+ * the new row; in an entry off the diagonal the two have u in common. */
 static inline void insole_zupt_turn_rows(insole_zupt_cov_t *P, insole_vec3_t u)
 {
     insole_sym3_t *vv = &P->vv;
@@ -81,7 +82,7 @@ static inline void insole_zupt_turn_rows(insole_zupt_cov_t *P, insole_vec3_t u)
     P->va = va;
 }
 
-/* What the bias adds to it afterwards: v' = v - U a + G b. */
+/* What the bias adds afterwards: v' = v - U a + G b. */
 void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P, insole_vec3_t u, const insole_mat3_t *C,
                                     insole_real_t dt_s);
 
@@ -102,7 +103,7 @@ static inline void insole_zupt_cov_propagate(insole_zupt_cov_t *P, insole_vec3_t
 /** P H' w with H = [0 I 0 0]: what a measurement of the velocity tells of all. */
 insole_zupt_error_t insole_zupt_cov_of_velocity(const insole_zupt_cov_t *P, insole_vec3_t w);
 
-/* What is left of the blocks of the bias once p, v and a are corrected. @return K z of the bias */
+/* The blocks of the bias, once those of p, v and a are corrected. @return K z of the bias */
 insole_vec3_t insole_zupt_cov_correct_bias(insole_zupt_cov_t *P, const insole_sym3_t *W,
                                            insole_real_t r, insole_vec3_t z);
 
