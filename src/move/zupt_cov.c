@@ -49,7 +49,7 @@ insole_zupt_error_t insole_zupt_cov_of_velocity(const insole_zupt_cov_t *P, inso
     return x;
 }
 
-insole_zupt_error_t insole_zupt_cov_of_height(const insole_zupt_cov_t *P)
+INSOLE_COLD insole_zupt_error_t insole_zupt_cov_of_height(const insole_zupt_cov_t *P)
 {
     insole_zupt_error_t x = {insole_vec3(P->pp.xz, P->pp.yz, P->pp.zz), P->pv.r2, P->pa.r2,
                              P->pb.r2};
@@ -71,7 +71,7 @@ static void subtract_outer(insole_zupt_cov_t *P, const insole_zupt_error_t *k, i
 }
 
 /* The row of the height becomes r times the gain, again without a difference. */
-void insole_zupt_cov_correct_height(insole_zupt_cov_t *P, insole_real_t r)
+INSOLE_COLD void insole_zupt_cov_correct_height(insole_zupt_cov_t *P, insole_real_t r)
 {
     insole_zupt_error_t column = insole_zupt_cov_of_height(P);
     insole_real_t per_s = INSOLE_R(1.0) / (P->pp.zz + r);

@@ -48,7 +48,8 @@ static void begin_trace(insole_zupt_ekf_t *ekf, insole_zupt_step_t step)
     ekf->trace.height_var_m2 = ZERO;
 }
 
-insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf, const insole_zupt_ekf_config_t *config)
+INSOLE_COLD insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf,
+                                                 const insole_zupt_ekf_config_t *config)
 {
     if (!ekf || !config) {
         return INSOLE_ERR_NULL;
@@ -65,16 +66,17 @@ insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf, const insole_zupt_e
     return INSOLE_OK;
 }
 
-static void forget_motion(insole_zupt_cov_t *P)
+INSOLE_COLD static void forget_motion(insole_zupt_cov_t *P)
 {
     P->vv = insole_sym3_zero();
     P->pv = P->pa = P->va = insole_mat3_zero();
     P->pb = P->vb = P->ab = insole_mat3_zero();
 }
 
-insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf, insole_vec3_t mean_accel_mps2,
-                                      insole_real_t sigma_tilt_rad, insole_real_t yaw_rad,
-                                      uint64_t t_us)
+INSOLE_COLD insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf,
+                                                  insole_vec3_t mean_accel_mps2,
+                                                  insole_real_t sigma_tilt_rad,
+                                                  insole_real_t yaw_rad, uint64_t t_us)
 {
     if (!ekf) {
         return INSOLE_ERR_NULL;
@@ -285,8 +287,9 @@ INSOLE_FLAT insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, inso
     return INSOLE_OK;
 }
 
-insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ekf, insole_real_t height_m,
-                                               insole_real_t sigma_m)
+INSOLE_COLD insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ekf,
+                                                           insole_real_t height_m,
+                                                           insole_real_t sigma_m)
 {
     if (!ekf) {
         return INSOLE_ERR_NULL;
@@ -309,8 +312,9 @@ insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ekf, insole_re
     return INSOLE_OK;
 }
 
-insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf, insole_vec3_t velocity_mps,
-                                      insole_real_t sigma_mps, uint64_t t_us)
+INSOLE_COLD insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf,
+                                                  insole_vec3_t velocity_mps,
+                                                  insole_real_t sigma_mps, uint64_t t_us)
 {
     if (!ekf) {
         return INSOLE_ERR_NULL;
