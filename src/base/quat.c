@@ -5,12 +5,7 @@
 
 insole_quat_t insole_quat_normalize(insole_quat_t q)
 {
-    insole_real_t n = insole_sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    if (!(n > INSOLE_R(0.0)) || !insole_is_finite(n)) {
-        return insole_quat_identity();
-    }
-    insole_real_t s = INSOLE_R(1.0) / n;
-    return insole_quat(q.w * s, q.x * s, q.y * s, q.z * s);
+    return insole_quat_unit(q);
 }
 
 insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad)

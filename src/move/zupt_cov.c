@@ -1,6 +1,47 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/move/zupt_cov.h"
 
+/* v = v - U a is done: vb is half way, and the gain of the velocity is that of b alone. */
+static void gain_rows(insole_zupt_cov_t *P, const insole_mat3_t *G, const insole_mat3_t *vb)
+{
+    insole_sym3_t *vv = &P->vv;
+    const insole_mat3_t *was = &P->vb;
+    vv->xx += insole_vec3_dot(insole_vec3_add(vb->r0, was->r0), G->r0);
+    vv->xy += insole_vec3_dot(vb->r0, G->r1) + insole_vec3_dot(was->r1, G->r0);
+    vv->xz += insole_vec3_dot(vb->r0, G->r2) + insole_vec3_dot(was->r2, G->r0);
+    vv->yy += insole_vec3_dot(insole_vec3_add(vb->r1, was->r1), G->r1);
+    vv->yz += insole_vec3_dot(vb->r1, G->r2) + insole_vec3_dot(was->r2, G->r1);
+    vv->zz += insole_vec3_dot(insole_vec3_add(vb->r2, was->r2), G->r2);
+    P->vb = *vb;
+}
+
+/* First the rows of p, then those of v. */
+INSOLE_FLAT void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P, insole_vec3_t u,
+                                                const insole_mat3_t *C, insole_real_t dt_s)
+{
+    insole_mat3_t G = insole_mat3_scale(*C, -dt_s);
+    P->pb = insole_mat3_add_scaled(P->pb, dt_s, P->vb);
+    P->pv = insole_mat3_add(P->pv, insole_mat3_mul_t(P->pb, G));
+    P->va = insole_mat3_add(P->va, insole_mat3_mul_t(G, P->ab));
+    P->vb = insole_mat3_sub(P->vb, insole_mat3_skew_mul(u, P->ab));
+    insole_mat3_t vb = insole_mat3_add(P->vb, insole_mat3_mul_sym(G, P->bb));
+    gain_rows(P, &G, &vb);
+}
+
+/* K_x = P_xv+ / r */
+INSOLE_FLAT insole_vec3_t insole_zupt_cov_correct_bias(insole_zupt_cov_t *P, const insole_sym3_t *W,
+                                                       insole_real_t r, insole_vec3_t z)
+{
+    insole_mat3_t vb = insole_mat3_scale(P->vb, INSOLE_R(1.0) / r);
+    P->pb = insole_mat3_sub(P->pb, insole_mat3_mul(P->pv, vb));
+    P->ab = insole_mat3_sub(P->ab, insole_mat3_mul(insole_mat3_transpose(P->va), vb));
+
+    insole_mat3_t bv = insole_mat3_transpose(P->vb), K_b = insole_mat3_mul_sym(bv, *W);
+    P->bb = insole_sym3_add_scaled(P->bb, INSOLE_R(-1.0), insole_mat3_mul_t_sym(K_b, bv));
+    P->vb = insole_mat3_scale(insole_mat3_transpose(K_b), r);
+    return insole_mat3_mul_vec(K_b, z);
+}
+
 insole_zupt_error_t insole_zupt_cov_of_velocity(const insole_zupt_cov_t *P, insole_vec3_t w)
 {
     insole_zupt_error_t x = {insole_mat3_mul_vec(P->pv, w), insole_sym3_mul_vec(P->vv, w),
@@ -8,7 +49,7 @@ insole_zupt_error_t insole_zupt_cov_of_velocity(const insole_zupt_cov_t *P, inso
     return x;
 }
 
-insole_zupt_error_t insole_zupt_cov_of_height(const insole_zupt_cov_t *P)
+INSOLE_COLD insole_zupt_error_t insole_zupt_cov_of_height(const insole_zupt_cov_t *P)
 {
     insole_zupt_error_t x = {insole_vec3(P->pp.xz, P->pp.yz, P->pp.zz), P->pv.r2, P->pa.r2,
                              P->pb.r2};
@@ -30,7 +71,7 @@ static void subtract_outer(insole_zupt_cov_t *P, const insole_zupt_error_t *k, i
 }
 
 /* The row of the height becomes r times the gain, again without a difference. */
-void insole_zupt_cov_correct_height(insole_zupt_cov_t *P, insole_real_t r)
+INSOLE_COLD void insole_zupt_cov_correct_height(insole_zupt_cov_t *P, insole_real_t r)
 {
     insole_zupt_error_t column = insole_zupt_cov_of_height(P);
     insole_real_t per_s = INSOLE_R(1.0) / (P->pp.zz + r);

@@ -80,13 +80,25 @@ static inline insole_quat_t insole_quat_from_small(insole_vec3_t half_rad, insol
         c = one - z * (one / INSOLE_R(30.0)) * (one - z * (one / INSOLE_R(56.0)));
         s = one - z * (one / INSOLE_R(42.0)) * (one - z * (one / INSOLE_R(72.0)));
     }
-    c = one - z * INSOLE_R(0.5) * (one - z * (one / INSOLE_R(12.0)) * c); /* cos(half) */
+    insole_real_t y = z * INSOLE_R(0.5);
+    c = one - y * (one - y * (one / INSOLE_R(6.0)) * c); /* cos(half) */
     s = one - z * (one / INSOLE_R(6.0)) * (one - z * (one / INSOLE_R(20.0)) * s);
     return insole_quat(c, s * half_rad.x, s * half_rad.y, s * half_rad.z);
 }
 
 /** To unit length; a quaternion of no length becomes the identity. */
 insole_quat_t insole_quat_normalize(insole_quat_t q);
+
+/** The same in line, for what runs on each sample. */
+static inline insole_quat_t insole_quat_unit(insole_quat_t q)
+{
+    insole_real_t n = insole_sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (!(n > INSOLE_R(0.0) && n <= INSOLE_REAL_MAX)) {
+        return insole_quat_identity();
+    }
+    insole_real_t s = INSOLE_R(1.0) / n;
+    return insole_quat(q.w * s, q.x * s, q.y * s, q.z * s);
+}
 
 /** Rotation by the angle |v| about v [rad]. */
 insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad);
