@@ -346,7 +346,7 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
 static void measure_rest(insole_zero_velocity_t *zv)
 {
     measure(zv);
-    bool any = zv->window.count == zv->window.width;
+    bool any = zv->window.full;
     insole_real_t T = any ? slot(zv, zv->measured - 1u)->statistic : INSOLE_REAL_MAX;
     while (zv->measured != zv->ring.end) {
         slot(zv, zv->measured++)->statistic = T;
