@@ -48,12 +48,6 @@ insole_status_t insole_foot_tracker_start(insole_foot_tracker_t *tracker,
 
 /* ---- samples in ------------------------------------------------------------------------- */
 
-static insole_status_t take_clean(insole_foot_tracker_t *t, const insole_clean_t *clean)
-{
-    (void)insole_still_bias_push(&t->still_bias, &clean->imu);
-    return insole_zero_velocity_push(&t->zero_velocity, &clean->imu, clean->marks);
-}
-
 insole_status_t insole_foot_tracker_imu(insole_foot_tracker_t *tracker, const insole_imu_t *imu)
 {
     if (!tracker || !imu) {
@@ -71,7 +65,8 @@ insole_status_t insole_foot_tracker_imu(insole_foot_tracker_t *tracker, const in
     }
     insole_clean_t clean;
     if (insole_screen_push(&tracker->screen, imu, &clean) == INSOLE_OK) {
-        status = take_clean(tracker, &clean);
+        (void)insole_still_bias_push(&tracker->still_bias, &clean.imu);
+        insole_zero_velocity_take(&tracker->zero_velocity, &clean.imu, clean.marks);
     }
     return status;
 }
@@ -83,7 +78,8 @@ insole_status_t insole_foot_tracker_finish(insole_foot_tracker_t *tracker)
     }
     insole_clean_t clean;
     while (!tracker->finished && insole_screen_finish(&tracker->screen, &clean) == INSOLE_OK) {
-        (void)take_clean(tracker, &clean);
+        (void)insole_still_bias_push(&tracker->still_bias, &clean.imu);
+        (void)insole_zero_velocity_push(&tracker->zero_velocity, &clean.imu, clean.marks);
     }
     tracker->finished = true;
     return insole_zero_velocity_finish(&tracker->zero_velocity);

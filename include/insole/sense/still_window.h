@@ -54,8 +54,8 @@ typedef struct {
     uint32_t width;                                        /**< of the window [samples] */
     uint32_t at;                                           /**< slot of the next sample */
     bool full;                                             /**< `width` samples have come */
+    insole_still_sums_t sums;                              /**< anew whenever `at` comes round */
     insole_still_sums_t samples[INSOLE_STILL_WINDOW];
-    insole_still_sums_t sums; /**< over the window; anew whenever `at` comes round */
 } insole_still_window_t;
 
 /** @param width  1 to INSOLE_STILL_WINDOW
