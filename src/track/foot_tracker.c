@@ -116,7 +116,7 @@ static bool align(insole_foot_tracker_t *t, const insole_labelled_t *s,
 }
 
 /* The first attitude: from a rest as good as it gets, from a stance of a walk as told. */
-static void align_first(insole_foot_tracker_t *t, const insole_labelled_t *s)
+INSOLE_APART static void align_first(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
     bool rest = s->plain && s->imu.t_us - t->still_since_us > 0u && t->still_bias.rests > 0u;
     insole_real_t tilt = rest ? t->config.zupt_ekf.sigma_tilt_rad : t->config.sigma_moving_tilt_rad;
@@ -172,7 +172,7 @@ static void navigate(insole_foot_tracker_t *t, insole_labelled_t *s)
 /* ---- strides ---------------------------------------------------------------------------- */
 
 /* True when a stride ends. */
-static bool count_stride(insole_foot_tracker_t *t, const insole_labelled_t *s)
+INSOLE_APART static bool push_stride(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
     insole_real_t yaw = s->still ? insole_quat_turn(t->first_q, t->zupt_ekf.q) : ZERO;
     insole_stride_input_t in = {s->imu.t_us, t->zupt_ekf.p_m, yaw, t->zupt_ekf.force_mps2.z,
@@ -185,34 +185,52 @@ static bool count_stride(insole_foot_tracker_t *t, const insole_labelled_t *s)
     return ended;
 }
 
+static bool count_stride(insole_foot_tracker_t *t, const insole_labelled_t *s)
+{
+    return !insole_stride_go_on(&t->strides, s->imu.t_us, t->zupt_ekf.force_mps2.z, s->still) &&
+           push_stride(t, s);
+}
+
 /* ---- from n to m ------------------------------------------------------------------------ */
 
-static insole_vec3_t position_n(const insole_foot_tracker_t *t)
+static const insole_vec3_t *position_n(const insole_foot_tracker_t *t)
 {
-    return t->config.method == INSOLE_FOOT_PDR ? t->walk.place_m : t->zupt_ekf.p_m;
+    return t->config.method == INSOLE_FOOT_PDR ? &t->walk.place_m : &t->zupt_ekf.p_m;
+}
+
+/* Places of the model's strides are as uncertain as these besides. */
+static insole_sym3_t model_covariance(const insole_foot_tracker_t *t)
+{
+    insole_sym3_t P = t->zupt_ekf.P.pp;
+    P.xx += t->walk.place_m2;
+    P.yy += t->walk.place_m2;
+    P.zz += t->walk.place_m2;
+    return P;
+}
+
+static insole_fix_state_t fix_state(const insole_foot_tracker_t *t, const insole_fix_t *fix)
+{
+    if (!t->zupt_ekf.aligned) {
+        return INSOLE_FIX_ALIGN;
+    }
+    if (fix->var_x_m2 + fix->var_y_m2 > insole_square(t->config.lost_sigma_m)) {
+        return INSOLE_FIX_LOST;
+    }
+    return t->coasting ? INSOLE_FIX_COAST : INSOLE_FIX_TRACK;
 }
 
 static void make_fix(const insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t *fix)
 {
-    const insole_sym3_t *P = &t->zupt_ekf.P.pp;
-    insole_real_t more = t->config.method == INSOLE_FOOT_PDR ? t->walk.place_m2 : ZERO;
     fix->t_us = t_us;
-    fix->position_m = position_n(t);
     fix->heading_rad = t->walk.heading_rad;
-    fix->var_x_m2 = P->xx + more;
-    fix->cov_xy_m2 = P->xy;
-    fix->var_y_m2 = P->yy + more;
-    fix->var_z_m2 = P->zz + more;
     fix->var_heading_rad2 = t->zupt_ekf.P.aa.zz;
-    fix->state = INSOLE_FIX_TRACK;
-    (void)insole_foot_anchor_to_map(&t->anchor, fix);
-    if (!t->zupt_ekf.aligned) {
-        fix->state = INSOLE_FIX_ALIGN;
-    } else if (fix->var_x_m2 + fix->var_y_m2 > insole_square(t->config.lost_sigma_m)) {
-        fix->state = INSOLE_FIX_LOST;
-    } else if (t->coasting) {
-        fix->state = INSOLE_FIX_COAST;
+    if (t->config.method == INSOLE_FOOT_PDR) {
+        insole_sym3_t P = model_covariance(t);
+        (void)insole_foot_anchor_put(&t->anchor, &t->walk.place_m, &P, fix);
+    } else {
+        (void)insole_foot_anchor_put(&t->anchor, &t->zupt_ekf.p_m, &t->zupt_ekf.P.pp, fix);
     }
+    fix->state = fix_state(t, fix);
 }
 
 /* Yaw is known from now on: nothing that is learned later speaks of its error before. */
@@ -224,12 +242,12 @@ static void forget_yaw(insole_zupt_cov_t *P)
     P->ab.r2 = insole_vec3_zero();
 }
 
-static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
+INSOLE_APART static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
 {
-    if (!t->has_start || t_us < t->start.t_us) {
+    if (t_us < t->start.t_us) {
         return;
     }
-    (void)insole_foot_anchor_start(&t->anchor, &t->start, position_n(t), t_us);
+    (void)insole_foot_anchor_start(&t->anchor, &t->start, *position_n(t), t_us);
     forget_place(t);
     if (t->start.has_heading) {
         forget_yaw(&t->zupt_ekf.P);
@@ -292,7 +310,7 @@ static void end_coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
 }
 
 /* True when the sample has been used up. */
-static bool cross_gap(insole_foot_tracker_t *t, insole_labelled_t *s)
+INSOLE_APART static bool cross_gap(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
     insole_real_t gap_s = insole_seconds(t->zupt_ekf.t_us, s->imu.t_us);
     t->gap_turn_rad2 += insole_square(t->config.sigma_gap_turn_rad_rts) * gap_s;
@@ -308,14 +326,21 @@ static bool cross_gap(insole_foot_tracker_t *t, insole_labelled_t *s)
 }
 
 /* The foot stands for the first time after a gap: what lies before is left behind. */
-static void leave_gap(insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t *fix)
+INSOLE_APART static void leave_gap(insole_foot_tracker_t *t, uint64_t t_us)
 {
-    if (t->gap_turn_rad2 > ZERO && t->was_still && !t->coasting) {
-        make_fix(t, t_us, fix);
-        (void)insole_foot_anchor_renew(&t->anchor, fix, position_n(t), t->gap_turn_rad2);
+    if (t->was_still && !t->coasting) {
+        insole_fix_t fix;
+        make_fix(t, t_us, &fix);
+        (void)insole_foot_anchor_renew(&t->anchor, &fix, *position_n(t), t->gap_turn_rad2);
         forget_place(t);
         t->gap_turn_rad2 = ZERO;
     }
+}
+
+INSOLE_APART static void carry_over(insole_foot_tracker_t *t, const insole_labelled_t *s)
+{
+    coast(t, s);
+    end_coast(t, s);
 }
 
 /* One sample of the aligned filter; true when a stride ends. */
@@ -323,8 +348,7 @@ static bool move(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
     bool bridged = (s->tag & INSOLE_MARK_GAP) != 0u && cross_gap(t, s);
     if (t->coasting) {
-        coast(t, s);
-        end_coast(t, s);
+        carry_over(t, s);
     } else if (!bridged) {
         navigate(t, s);
     }
@@ -349,24 +373,35 @@ static bool advance(insole_foot_tracker_t *t, insole_labelled_t *s)
     return stride_ended;
 }
 
+/* A labelled sample becomes a fix. */
+INSOLE_APART static void use(insole_foot_tracker_t *t, insole_labelled_t *s, insole_fix_t *fix)
+{
+    if (t->counts.fixes == 0u) {
+        (void)insole_foot_anchor_init(&t->anchor, t->config.yaw_drift_radps, s->imu.t_us);
+    }
+    bool stride_ended = advance(t, s);
+    if (t->gap_turn_rad2 > ZERO) {
+        leave_gap(t, s->imu.t_us);
+    }
+    if (t->has_start) {
+        reach_start(t, s->imu.t_us);
+    }
+    if (t->anchor.strides_left > 0u) {
+        (void)insole_foot_anchor_follow(&t->anchor, *position_n(t), stride_ended);
+    }
+    make_fix(t, s->imu.t_us, fix);
+}
+
 insole_status_t insole_foot_tracker_next(insole_foot_tracker_t *tracker, insole_fix_t *fix)
 {
     if (!tracker || !fix) {
         return INSOLE_ERR_NULL;
     }
-    insole_foot_tracker_t *t = tracker;
     insole_labelled_t s;
-    if (insole_zero_velocity_next(&t->zero_velocity, &s) != INSOLE_OK) {
+    if (insole_zero_velocity_next(&tracker->zero_velocity, &s) != INSOLE_OK) {
         return INSOLE_ERR_STATE;
     }
-    if (t->counts.fixes == 0u) {
-        (void)insole_foot_anchor_init(&t->anchor, t->config.yaw_drift_radps, s.imu.t_us);
-    }
-    bool stride_ended = advance(t, &s);
-    leave_gap(t, s.imu.t_us, fix);
-    reach_start(t, s.imu.t_us);
-    (void)insole_foot_anchor_follow(&t->anchor, position_n(t), stride_ended);
-    make_fix(t, s.imu.t_us, fix);
+    use(tracker, &s, fix);
     return INSOLE_OK;
 }
 
