@@ -42,7 +42,6 @@ insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
     zv->config = *config;
     zv->ring = insole_ring(INSOLE_STANCE_RING);
     zv->reach_us = microseconds(config->reach_s);
-    zv->past_us = zv->reach_us / (INSOLE_STANCE_PAST - 1u);
     zv->spread_us = microseconds(config->spread_s);
     zv->hole_us = microseconds(config->two_step_hole_s);
     if (config->detector == INSOLE_DETECT_ADAPTIVE) {
@@ -53,9 +52,7 @@ insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
     }
     zv->period_s = FIRST_PERIOD_S;
     zv->usual_log = insole_log(config->plain_threshold);
-    for (uint32_t i = 0u; i < INSOLE_STANCE_PAST; i++) {
-        zv->past[i] = INSOLE_REAL_MAX;
-    }
+    (void)insole_past_min_init(&zv->past, zv->reach_us);
     return INSOLE_OK;
 }
 
@@ -136,37 +133,6 @@ static void measure(insole_zero_velocity_t *zv)
 
 /* ---- the judgement ---------------------------------------------------------------------- */
 
-INSOLE_APART static void begin_past_block(insole_zero_velocity_t *zv, uint32_t t_us)
-{
-    for (uint32_t i = 0u; i < INSOLE_STANCE_PAST && t_us - zv->past_began_us >= zv->past_us; i++) {
-        zv->past_began_us += zv->past_us;
-        zv->past_at = (zv->past_at + 1u) % INSOLE_STANCE_PAST;
-        zv->past[zv->past_at] = INSOLE_REAL_MAX;
-    }
-    if (t_us - zv->past_began_us >= zv->past_us) {
-        zv->past_began_us = t_us; /* after a gap */
-    }
-}
-
-static void remember_past(insole_zero_velocity_t *zv, uint32_t t_us, insole_real_t statistic)
-{
-    if (t_us - zv->past_began_us >= zv->past_us) {
-        begin_past_block(zv, t_us);
-    }
-    if (statistic < zv->past[zv->past_at]) {
-        zv->past[zv->past_at] = statistic;
-    }
-}
-
-static bool is_least_of_past(const insole_zero_velocity_t *zv, insole_real_t statistic)
-{
-    insole_real_t least = zv->past[0];
-    for (uint32_t i = 1u; i < INSOLE_STANCE_PAST; i++) {
-        least = insole_min(least, zv->past[i]);
-    }
-    return statistic <= least;
-}
-
 static bool is_least_of_future(insole_zero_velocity_t *zv, uint32_t number)
 {
     const insole_stance_slot_t *k = slot(zv, number);
@@ -196,7 +162,7 @@ INSOLE_APART static bool is_guaranteed(insole_zero_velocity_t *zv, uint32_t numb
     const insole_stance_slot_t *k = slot(zv, number);
     bool falling = number == zv->ring.begin || k->statistic < slot(zv, number - 1u)->statistic;
     bool rising = number + 1u == zv->measured || k->statistic <= slot(zv, number + 1u)->statistic;
-    return falling && rising && is_least_of_past(zv, k->statistic) &&
+    return falling && rising && k->statistic <= insole_past_min(&zv->past) &&
            is_least_of_future(zv, number) && !is_in_swing(zv, k);
 }
 
@@ -256,7 +222,7 @@ static void judge_adaptive(insole_zero_velocity_t *zv, uint32_t number)
         note_stance(zv, k->t_us, k->statistic);
         spread(zv, number);
     }
-    remember_past(zv, k->t_us, k->statistic);
+    insole_past_min_push(&zv->past, k->t_us, k->statistic);
 }
 
 /* The sample as such, in units of the two thresholds: still below 1. Step one of [TwoOrder] 4.3. */

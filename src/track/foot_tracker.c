@@ -53,22 +53,16 @@ insole_status_t insole_foot_tracker_imu(insole_foot_tracker_t *tracker, const in
     if (!tracker || !imu) {
         return INSOLE_ERR_NULL;
     }
-    insole_status_t status = INSOLE_OK;
-    if (tracker->finished) {
-        status = INSOLE_ERR_STATE;
-    } else if (insole_ring_is_full(&tracker->zero_velocity.ring)) {
-        status = INSOLE_ERR_ROOM;
-    }
-    if (status != INSOLE_OK) {
+    if (tracker->finished || insole_ring_is_full(&tracker->zero_velocity.ring)) {
         tracker->counts.refused++;
-        return status;
+        return tracker->finished ? INSOLE_ERR_STATE : INSOLE_ERR_ROOM;
     }
     insole_clean_t clean;
     if (insole_screen_push(&tracker->screen, imu, &clean) == INSOLE_OK) {
         (void)insole_still_bias_push(&tracker->still_bias, &clean.imu);
         insole_zero_velocity_take(&tracker->zero_velocity, &clean.imu, clean.marks);
     }
-    return status;
+    return INSOLE_OK;
 }
 
 insole_status_t insole_foot_tracker_finish(insole_foot_tracker_t *tracker)
@@ -177,12 +171,12 @@ INSOLE_APART static bool push_stride(insole_foot_tracker_t *t, const insole_labe
     insole_real_t yaw = s->still ? insole_quat_turn(t->first_q, t->zupt_ekf.q) : ZERO;
     insole_stride_input_t in = {s->imu.t_us, t->zupt_ekf.p_m, yaw, t->zupt_ekf.force_mps2.z,
                                 s->still};
-    bool ended = insole_stride_push(&t->strides, &in, &t->stride) == INSOLE_OK;
-    if (ended) {
-        t->has_stride = true;
-        (void)insole_foot_walk_stride(&t->walk, &t->stride, s->imu.t_us);
+    if (insole_stride_push(&t->strides, &in, &t->stride) != INSOLE_OK) {
+        return false;
     }
-    return ended;
+    t->has_stride = true;
+    (void)insole_foot_walk_stride(&t->walk, &t->stride, s->imu.t_us);
+    return true;
 }
 
 static bool count_stride(insole_foot_tracker_t *t, const insole_labelled_t *s)
@@ -198,25 +192,13 @@ static const insole_vec3_t *position_n(const insole_foot_tracker_t *t)
     return t->config.method == INSOLE_FOOT_PDR ? &t->walk.place_m : &t->zupt_ekf.p_m;
 }
 
-/* Places of the model's strides are as uncertain as these besides. */
-static insole_sym3_t model_covariance(const insole_foot_tracker_t *t)
-{
-    insole_sym3_t P = t->zupt_ekf.P.pp;
-    P.xx += t->walk.place_m2;
-    P.yy += t->walk.place_m2;
-    P.zz += t->walk.place_m2;
-    return P;
-}
-
 static insole_fix_state_t fix_state(const insole_foot_tracker_t *t, const insole_fix_t *fix)
 {
-    if (!t->zupt_ekf.aligned) {
-        return INSOLE_FIX_ALIGN;
-    }
-    if (fix->var_x_m2 + fix->var_y_m2 > insole_square(t->config.lost_sigma_m)) {
-        return INSOLE_FIX_LOST;
-    }
-    return t->coasting ? INSOLE_FIX_COAST : INSOLE_FIX_TRACK;
+    bool lost = fix->var_x_m2 + fix->var_y_m2 > insole_square(t->config.lost_sigma_m);
+    return !t->zupt_ekf.aligned ? INSOLE_FIX_ALIGN
+           : lost               ? INSOLE_FIX_LOST
+           : t->coasting        ? INSOLE_FIX_COAST
+                                : INSOLE_FIX_TRACK;
 }
 
 static void make_fix(const insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t *fix)
@@ -225,7 +207,7 @@ static void make_fix(const insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t
     fix->heading_rad = t->walk.heading_rad;
     fix->var_heading_rad2 = t->zupt_ekf.P.aa.zz;
     if (t->config.method == INSOLE_FOOT_PDR) {
-        insole_sym3_t P = model_covariance(t);
+        insole_sym3_t P = insole_sym3_add_diagonal(t->zupt_ekf.P.pp, t->walk.place_m2);
         (void)insole_foot_anchor_put(&t->anchor, &t->walk.place_m, &P, fix);
     } else {
         (void)insole_foot_anchor_put(&t->anchor, &t->zupt_ekf.p_m, &t->zupt_ekf.P.pp, fix);
@@ -283,15 +265,6 @@ static void begin_coast(insole_foot_tracker_t *t)
     (void)insole_foot_walk_cease(&t->walk, t->zupt_ekf.t_us);
 }
 
-static void coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
-{
-    insole_vec3_t way;
-    insole_real_t per_s = INSOLE_R(1.0) / insole_seconds(t->zupt_ekf.t_us, s->imu.t_us);
-    (void)insole_foot_walk_on(&t->walk, t->zupt_ekf.t_us, s->imu.t_us, &way);
-    (void)insole_zupt_ekf_coast(&t->zupt_ekf, insole_vec3_scale(way, per_s),
-                                t->config.sigma_walk_mps, s->imu.t_us);
-}
-
 /* The foot stands again, turned by what is usual and somewhat more or less. */
 static void end_coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
@@ -337,9 +310,13 @@ INSOLE_APART static void leave_gap(insole_foot_tracker_t *t, uint64_t t_us)
     }
 }
 
-INSOLE_APART static void carry_over(insole_foot_tracker_t *t, const insole_labelled_t *s)
+INSOLE_APART static void coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
-    coast(t, s);
+    insole_vec3_t way;
+    insole_real_t per_s = INSOLE_R(1.0) / insole_seconds(t->zupt_ekf.t_us, s->imu.t_us);
+    (void)insole_foot_walk_on(&t->walk, t->zupt_ekf.t_us, s->imu.t_us, &way);
+    (void)insole_zupt_ekf_coast(&t->zupt_ekf, insole_vec3_scale(way, per_s),
+                                t->config.sigma_walk_mps, s->imu.t_us);
     end_coast(t, s);
 }
 
@@ -348,7 +325,7 @@ static bool move(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
     bool bridged = (s->tag & INSOLE_MARK_GAP) != 0u && cross_gap(t, s);
     if (t->coasting) {
-        carry_over(t, s);
+        coast(t, s);
     } else if (!bridged) {
         navigate(t, s);
     }

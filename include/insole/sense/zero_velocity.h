@@ -27,16 +27,14 @@
 #include "insole/base/config.h"
 #include "insole/base/ring.h"
 #include "insole/base/types.h"
+#include "insole/sense/past_min.h"
 #include "insole/sense/still_window.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-enum {
-    INSOLE_STANCE_RING = 128, /**< samples in the delay line */
-    INSOLE_STANCE_PAST = 8    /**< blocks in which the past minimum of the statistic is kept */
-};
+enum { INSOLE_STANCE_RING = 128 /**< samples in the delay line */ };
 
 typedef enum {
     INSOLE_DETECT_ADAPTIVE = 0,
@@ -114,16 +112,13 @@ typedef struct {
     uint32_t reach_us, spread_us, hole_us; /**< settings in microseconds */
     uint32_t ahead_us;                     /**< time after a sample that its judgement looks at */
     uint32_t back_us;                      /**< time before a sample that its judgement may label */
-    uint32_t past_us;                      /**< length of a block of the past */
     uint32_t half;                         /**< half window [samples]; 0 until the rate is known */
-    uint32_t fed;      /**< running number of the next slot that the window is to take */
-    uint32_t measured; /**< running number of the next slot whose statistic is to be formed */
-    uint32_t judged;   /**< running number of the next slot to be judged */
-    insole_real_t past[INSOLE_STANCE_PAST]; /**< minima of the statistic in blocks of the past */
-    uint32_t past_at;                       /**< index of the block being filled */
-    uint32_t past_began_us;                 /**< low half of the time at which it began */
-    uint32_t last_still_us;                 /**< low half of the stamp of the last still sample */
-    uint32_t last_stance_us;                /**< of the last stance's first sample or minimum */
+    uint32_t fed;            /**< running number of the next slot that the window is to take */
+    uint32_t measured;       /**< running number of the next slot whose statistic is to be formed */
+    uint32_t judged;         /**< running number of the next slot to be judged */
+    insole_past_min_t past;  /**< of the statistic */
+    uint32_t last_still_us;  /**< low half of the stamp of the last still sample */
+    uint32_t last_stance_us; /**< of the last stance's first sample or minimum */
     bool has_still, has_stance;
     insole_real_t period_s;  /**< running mean of the gait period */
     insole_real_t usual_log; /**< running mean of ln(statistic) of stances */
