@@ -39,7 +39,7 @@ typedef struct {
 } triple_t;
 
 static const triple_t NONE[] = {
-    {0.0, 0.0, 0.0},   {1.0, 10.875, 1.0},   /* not far enough */
+    {0.0, 0.0, 0.0},   {1.0, 10.875, 1.0}, /* not far enough */
     {0.0, 20.0, 40.0}, {40.0, 20.0, 0.0},  /* on the way */
     {0.0, 20.0, 9.0},  {9.0, 20.0, 0.0},   /* one side near */
     {0.0, 20.0, 4.0},  {-4.0, -20.0, 0.0}, /* neighbours not close enough together */
