@@ -167,7 +167,8 @@ INSOLE_APART static bool is_guaranteed(insole_zero_velocity_t *zv, uint32_t numb
 }
 
 /* What is usual for this walker follows the stances that were found. */
-static void note_stance(insole_zero_velocity_t *zv, uint32_t t_us, insole_real_t statistic)
+INSOLE_APART static void note_stance(insole_zero_velocity_t *zv, uint32_t t_us,
+                                     insole_real_t statistic)
 {
     insole_real_t interval_s = seconds(zv->last_stance_us, t_us);
     if (zv->has_stance && interval_s >= SHORTEST_PERIOD_S && interval_s <= LONGEST_PERIOD_S) {
@@ -296,7 +297,8 @@ static void judge_seen(insole_zero_velocity_t *zv)
     }
 }
 
-void insole_zero_velocity_take(insole_zero_velocity_t *zv, const insole_imu_t *imu, uint8_t tag)
+INSOLE_FLAT void insole_zero_velocity_take(insole_zero_velocity_t *zv, const insole_imu_t *imu,
+                                           uint8_t tag)
 {
     insole_stance_slot_t *s = slot(zv, zv->ring.end++);
     s->accel_mps2 = imu->accel_mps2;

@@ -125,25 +125,7 @@ static insole_real_t positive(insole_real_t variance)
     return insole_max(variance, ZERO);
 }
 
-static void put(const insole_foot_anchor_t *a, const insole_vec3_t *position,
-                const insole_sym3_t *P, insole_fix_t *fix)
-{
-    insole_real_t c = a->turn.cos, s = a->turn.sin, var_yaw = turn_variance(a, fix->t_us);
-    insole_vec3_t d = insole_vec3_sub(*position, a->anchor_n_m);
-    insole_vec3_t way = insole_vec3(c * d.x - s * d.y, s * d.x + c * d.y, d.z);
-    insole_real_t xx = P->xx, xy = P->xy, yy = P->yy, zz = P->zz;
-    insole_real_t cs2 = INSOLE_R(2.0) * c * s * xy;
-    insole_real_t var_x = c * c * xx - cs2 + s * s * yy, var_y = s * s * xx + cs2 + c * c * yy;
-    insole_real_t cov = c * s * (xx - yy) + (c * c - s * s) * xy;
-    fix->position_m = insole_vec3_add(a->anchor_m_m, way);
-    fix->heading_rad = insole_wrap_pi(fix->heading_rad + a->yaw_rad);
-    fix->var_x_m2 = positive(var_x + (a->var_m2 + var_yaw * way.y * way.y));
-    fix->cov_xy_m2 = cov - var_yaw * way.x * way.y;
-    fix->var_y_m2 = positive(var_y + (a->var_m2 + var_yaw * way.x * way.x));
-    fix->var_z_m2 = positive(zz);
-    fix->var_heading_rad2 = positive(fix->var_heading_rad2 + var_yaw);
-}
-
+/* What may call other functions comes first: nothing else need be kept then. */
 insole_status_t insole_foot_anchor_put(const insole_foot_anchor_t *anchor,
                                        const insole_vec3_t *position_n_m,
                                        const insole_sym3_t *cov_n_m2, insole_fix_t *fix)
@@ -151,7 +133,21 @@ insole_status_t insole_foot_anchor_put(const insole_foot_anchor_t *anchor,
     if (!anchor || !position_n_m || !cov_n_m2 || !fix) {
         return INSOLE_ERR_NULL;
     }
-    put(anchor, position_n_m, cov_n_m2, fix);
+    const insole_foot_anchor_t *a = anchor;
+    fix->heading_rad = insole_wrap_pi(fix->heading_rad + a->yaw_rad);
+    insole_real_t var_yaw = turn_variance(a, fix->t_us), c = a->turn.cos, s = a->turn.sin;
+    insole_real_t xx = cov_n_m2->xx, xy = cov_n_m2->xy, yy = cov_n_m2->yy;
+    insole_vec3_t d = insole_vec3_sub(*position_n_m, a->anchor_n_m);
+    insole_vec3_t way = insole_vec3(c * d.x - s * d.y, s * d.x + c * d.y, d.z);
+    insole_real_t cs2 = INSOLE_R(2.0) * c * s * xy;
+    insole_real_t var_x = c * c * xx - cs2 + s * s * yy, var_y = s * s * xx + cs2 + c * c * yy;
+    insole_real_t cov = c * s * (xx - yy) + (c * c - s * s) * xy;
+    fix->position_m = insole_vec3_add(a->anchor_m_m, way);
+    fix->var_x_m2 = positive(var_x + (a->var_m2 + var_yaw * way.y * way.y));
+    fix->cov_xy_m2 = cov - var_yaw * way.x * way.y;
+    fix->var_y_m2 = positive(var_y + (a->var_m2 + var_yaw * way.x * way.x));
+    fix->var_z_m2 = positive(cov_n_m2->zz);
+    fix->var_heading_rad2 = positive(fix->var_heading_rad2 + var_yaw);
     return INSOLE_OK;
 }
 

@@ -201,7 +201,7 @@ static insole_fix_state_t fix_state(const insole_foot_tracker_t *t, const insole
                                 : INSOLE_FIX_TRACK;
 }
 
-static void make_fix(const insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t *fix)
+static void make_fix(const insole_foot_tracker_t *t, insole_fix_t *fix, uint64_t t_us)
 {
     fix->t_us = t_us;
     fix->heading_rad = t->walk.heading_rad;
@@ -303,7 +303,7 @@ INSOLE_APART static void leave_gap(insole_foot_tracker_t *t, uint64_t t_us)
 {
     if (t->was_still && !t->coasting) {
         insole_fix_t fix;
-        make_fix(t, t_us, &fix);
+        make_fix(t, &fix, t_us);
         (void)insole_foot_anchor_renew(&t->anchor, &fix, *position_n(t), t->gap_turn_rad2);
         forget_place(t);
         t->gap_turn_rad2 = ZERO;
@@ -351,7 +351,8 @@ static bool advance(insole_foot_tracker_t *t, insole_labelled_t *s)
 }
 
 /* A labelled sample becomes a fix. */
-INSOLE_APART static void use(insole_foot_tracker_t *t, insole_labelled_t *s, insole_fix_t *fix)
+INSOLE_APART INSOLE_FLAT static void use(insole_foot_tracker_t *t, insole_labelled_t *s,
+                                         insole_fix_t *fix)
 {
     if (t->counts.fixes == 0u) {
         (void)insole_foot_anchor_init(&t->anchor, t->config.yaw_drift_radps, s->imu.t_us);
@@ -366,7 +367,7 @@ INSOLE_APART static void use(insole_foot_tracker_t *t, insole_labelled_t *s, ins
     if (t->anchor.strides_left > 0u) {
         (void)insole_foot_anchor_follow(&t->anchor, *position_n(t), stride_ended);
     }
-    make_fix(t, s->imu.t_us, fix);
+    make_fix(t, fix, s->imu.t_us);
 }
 
 insole_status_t insole_foot_tracker_next(insole_foot_tracker_t *tracker, insole_fix_t *fix)
