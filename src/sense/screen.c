@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "insole/sense/spike.h"
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -16,20 +18,8 @@ static const uint64_t LATEST_US = (uint64_t)INT64_MAX;
 /* Longer intervals than this are all the same. */
 static const uint32_t FAR_US = 1u << 30;
 
-/* A neighbour of a spike lies this much nearer to the other neighbour than to the spike. */
-static const insole_real_t SPIKE_SHARE = INSOLE_R(0.25);
-
 /* Two vectors shorter than this share of a spike cannot be one away from each other. */
 static const insole_real_t CALM_SHARE = INSOLE_R(0.49);
-
-/* The clock behind the stamps: gains of its phase and period per sample, the interval that makes a
- * burst, and how far a stamp may lie from it before it starts anew. */
-enum { CLOCK_INTERVALS = 20 };
-static const insole_real_t CLOCK_PHASE_GAIN = INSOLE_R(0.05);
-static const insole_real_t CLOCK_PERIOD_GAIN = INSOLE_R(0.0006);
-static const insole_real_t CLOCK_REACH_US = INSOLE_R(30000.0);
-static const insole_real_t BURST_INTERVAL_SHARE = INSOLE_R(0.75);
-static const insole_real_t BURST_WEIGHT = INSOLE_R(0.01);
 
 /* An interval this much shorter than that of the highest rate is still one of it. */
 static const insole_real_t INTERVAL_SHARE = INSOLE_R(0.98);
@@ -194,82 +184,22 @@ static bool is_after_gap(insole_screen_t *s, uint32_t dt_us)
     return dt_us > s->gap_us || dropped_us > (insole_real_t)s->gap_us;
 }
 
-/* ---- bursts ----------------------------------------------------------------------------- */
-
-/* A stamp that follows the one before this soon was read late, with its successor. */
-static bool follows_too_soon(const insole_even_clock_t *clock, insole_real_t dt_us)
-{
-    return dt_us < BURST_INTERVAL_SHARE * clock->period_us;
-}
-
-/* The clock ticks on by its period and is drawn towards the stamp that came. */
-static void tick(insole_even_clock_t *clock, insole_real_t dt_us)
-{
-    insole_real_t error_us = dt_us - clock->period_us - clock->lead_us; /* raw less expected */
-    clock->burst_share +=
-        BURST_WEIGHT * ((follows_too_soon(clock, dt_us) ? ONE : ZERO) - clock->burst_share);
-    if (insole_abs(error_us) > CLOCK_REACH_US) {
-        clock->lead_us = ZERO;
-        return;
-    }
-    clock->lead_us = -(ONE - CLOCK_PHASE_GAIN) * error_us;
-    clock->period_us += CLOCK_PERIOD_GAIN * error_us;
-}
-
-static void learn_period(insole_even_clock_t *clock, uint32_t dt_us)
-{
-    clock->span_us += dt_us;
-    if (++clock->intervals == CLOCK_INTERVALS) {
-        clock->period_us = (insole_real_t)clock->span_us / (insole_real_t)CLOCK_INTERVALS;
-    }
-}
-
 /* What the even stamp adds to the raw one: nothing unless stamps come in bursts. */
 static int32_t even_lead_us(insole_screen_t *s, uint32_t dt_us, bool known)
 {
-    insole_even_clock_t *clock = &s->clock;
     if (!known) {
-        clock->lead_us = ZERO;
+        insole_even_clock_restart(&s->clock);
         return 0;
     }
-    if (!(clock->period_us > ZERO)) {
-        learn_period(clock, dt_us);
-        return 0;
-    }
-    tick(clock, (insole_real_t)dt_us);
-    if (clock->burst_share < s->config.burst_share) {
+    if (insole_even_clock_tick(&s->clock, dt_us) != INSOLE_OK ||
+        s->clock.burst_share < s->config.burst_share) {
         return 0;
     }
     s->counts.evened++;
-    return (int32_t)clock->lead_us; /* at most CLOCK_REACH_US */
+    return (int32_t)s->clock.lead_us; /* at most INSOLE_EVEN_CLOCK_REACH_US */
 }
 
 /* ---- spikes ----------------------------------------------------------------------------- */
-
-static bool mend_spike(insole_real_t before, insole_real_t *middle, insole_real_t after,
-                       insole_real_t limit)
-{
-    insole_real_t rise = *middle - before, fall = *middle - after;
-    insole_real_t least = insole_min(insole_abs(rise), insole_abs(fall));
-    bool spike =
-        rise * fall > ZERO && least > limit && insole_abs(after - before) < SPIKE_SHARE * least;
-    if (spike) {
-        *middle = INSOLE_R(0.5) * (before + after);
-    }
-    return spike;
-}
-
-static bool mend_spikes(insole_vec3_t before, insole_vec3_t *middle, insole_vec3_t after,
-                        insole_real_t limit)
-{
-    if (is_shorter(insole_vec3_sub(*middle, before), limit)) {
-        return false;
-    }
-    bool x = mend_spike(before.x, &middle->x, after.x, limit);
-    bool y = mend_spike(before.y, &middle->y, after.y, limit);
-    bool z = mend_spike(before.z, &middle->z, after.z, limit);
-    return x || y || z;
-}
 
 /* The pending sample, between the one before it and the one that has come. */
 static void mend(insole_screen_t *s, const insole_imu_t *after, uint32_t since_us)
@@ -280,10 +210,10 @@ static void mend(insole_screen_t *s, const insole_imu_t *after, uint32_t since_u
     }
     const insole_imu_t *first = &before(s)->clean.imu;
     insole_imu_t *middle = &slot->clean.imu;
-    bool accel = mend_spikes(first->accel_mps2, &middle->accel_mps2, after->accel_mps2,
-                             s->config.spike_accel_mps2);
-    bool gyro = mend_spikes(first->gyro_radps, &middle->gyro_radps, after->gyro_radps,
-                            s->config.spike_gyro_radps);
+    bool accel = insole_spike_mend(first->accel_mps2, &middle->accel_mps2, after->accel_mps2,
+                                   s->config.spike_accel_mps2);
+    bool gyro = insole_spike_mend(first->gyro_radps, &middle->gyro_radps, after->gyro_radps,
+                                  s->config.spike_gyro_radps);
     s->counts.spikes += accel || gyro ? 1u : 0u;
 }
 

@@ -42,7 +42,7 @@ typedef float insole_real_t;
 #define INSOLE_COLD
 #endif
 
-/** Before a step that most calls do not take: kept apart, so that they need not make room for it. */
+/** Before a step that most calls do not take: kept apart, so that they make no room for it. */
 #ifdef __GNUC__
 #define INSOLE_APART __attribute__((noinline))
 #else

@@ -20,6 +20,7 @@
 
 #include "insole/base/config.h"
 #include "insole/base/types.h"
+#include "insole/sense/even_clock.h"
 #include "insole/sense/gyro_clip.h"
 
 #ifdef __cplusplus
@@ -77,14 +78,6 @@ typedef struct {
     insole_imu_t imu;
     uint8_t marks;
 } insole_clean_t;
-
-/** The sensor's own clock, followed through the jitter of the stamps. */
-typedef struct {
-    insole_real_t period_us;     /**< 0 until known */
-    insole_real_t lead_us;       /**< of the even stamp over the raw one */
-    insole_real_t burst_share;   /**< running share of stamps that follow too soon */
-    uint32_t intervals, span_us; /**< the first ones, from which the period is found */
-} insole_even_clock_t;
 
 /** What the sample that waits looked like. */
 typedef enum {
