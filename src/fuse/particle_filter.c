@@ -243,8 +243,8 @@ static void draw_one(insole_particle_filter_t *filter, const insole_cloud_t *clo
                      const insole_floor_plan_t *plan, uint32_t number)
 {
     insole_particle_t *particle = &cloud->particles[number];
-    insole_cloud_source_draw(&filter->source, particle, filter->anywhere ? NULL : plan,
-                             &filter->rng);
+    plan = filter->anywhere ? NULL : plan;
+    insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
     insole_step_weighing_drawn(&filter->steps, cloud, number);
     insole_weighing_note(&filter->weighing, particle, number);
 }
@@ -261,15 +261,6 @@ static void move(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
     } else if (!weighing->news.has_scan) {
         insole_weighing_weigh(weighing, &filter->field, cloud, first, end);
     }
-}
-
-static void weigh(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
-                  const insole_floor_plan_t *plan, uint32_t first, uint32_t end)
-{
-    if (filter->phase == INSOLE_PARTICLES_STEP_WEIGH) {
-        insole_step_weighing_weigh(&filter->steps, plan, cloud, first, end);
-    }
-    insole_weighing_weigh(&filter->weighing, &filter->field, cloud, first, end);
 }
 
 /* Where nothing walkable is even far around, going on without the plan is better than an end. */
@@ -333,8 +324,9 @@ static void work_particles(insole_particle_filter_t *filter, const insole_cloud_
         move(filter, cloud, plan, first, end);
         break;
     case INSOLE_PARTICLES_STEP_WEIGH:
+        insole_step_weighing_weigh(&filter->steps, plan, cloud, first, end); /* fall through */
     case INSOLE_PARTICLES_WEIGH:
-        weigh(filter, cloud, plan, first, end);
+        insole_weighing_weigh(&filter->weighing, &filter->field, cloud, first, end);
         break;
     default:
         for (uint32_t i = first; i < end; i++) {
