@@ -221,20 +221,23 @@ static void end_sum(insole_particle_filter_t *filter, const insole_cloud_t *clou
     }
 }
 
-static void finish_one(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
-                       const insole_floor_plan_t *plan, uint32_t number)
+static void finish(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                   const insole_floor_plan_t *plan, uint32_t first, uint32_t end)
 {
-    insole_particle_t *particle = &cloud->particles[number];
-    if (filter->spreads) {
-        insole_cloud_source_t own = insole_cloud_source(&filter->fix, ZERO); /* `reach` is wider */
-        insole_cloud_source_spread(&own, filter->config.spread_share, particle, plan, &filter->rng);
+    insole_cloud_source_t own = insole_cloud_source(&filter->fix, ZERO); /* `reach` is wider */
+    insole_cloud_aside_t aside = insole_cloud_source_aside(&own, filter->config.spread_share);
+    for (uint32_t i = first; i < end; i++) {
+        insole_particle_t *particle = &cloud->particles[i];
+        if (filter->spreads) {
+            insole_cloud_source_spread(&aside, particle, plan, &filter->rng);
+        }
+        if (filter->redraw_every > 0 && i % filter->redraw_every == 0) {
+            insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
+            particle->log_weight = insole_particle_lives(particle) ? filter->weighing.common_log
+                                                                   : INSOLE_PARTICLE_DEAD;
+        }
+        insole_cloud_remember(cloud, i, filter->since_start);
     }
-    if (filter->redraw_every > 0 && number % filter->redraw_every == 0) {
-        insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
-        particle->log_weight =
-            insole_particle_lives(particle) ? filter->weighing.common_log : INSOLE_PARTICLE_DEAD;
-    }
-    insole_cloud_remember(cloud, number, filter->since_start);
 }
 
 /* ---- the work ---- */
@@ -243,8 +246,8 @@ static void draw_one(insole_particle_filter_t *filter, const insole_cloud_t *clo
                      const insole_floor_plan_t *plan, uint32_t number)
 {
     insole_particle_t *particle = &cloud->particles[number];
-    insole_cloud_source_draw(&filter->source, particle, filter->anywhere ? NULL : plan,
-                             &filter->rng);
+    plan = filter->anywhere ? NULL : plan;
+    insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
     insole_step_weighing_drawn(&filter->steps, cloud, number);
     insole_weighing_note(&filter->weighing, particle, number);
 }
@@ -261,15 +264,6 @@ static void move(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
     } else if (!weighing->news.has_scan) {
         insole_weighing_weigh(weighing, &filter->field, cloud, first, end);
     }
-}
-
-static void weigh(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
-                  const insole_floor_plan_t *plan, uint32_t first, uint32_t end)
-{
-    if (filter->phase == INSOLE_PARTICLES_STEP_WEIGH) {
-        insole_step_weighing_weigh(&filter->steps, plan, cloud, first, end);
-    }
-    insole_weighing_weigh(&filter->weighing, &filter->field, cloud, first, end);
 }
 
 /* Where nothing walkable is even far around, going on without the plan is better than an end. */
@@ -320,7 +314,6 @@ static void work_particles(insole_particle_filter_t *filter, const insole_cloud_
                            const insole_floor_plan_t *plan, uint32_t *budget)
 {
     uint32_t first = filter->next, end = insole_cloud_slice(cloud, first, budget);
-    const insole_floor_plan_t *hard = filter->config.walls == INSOLE_WALLS_SOFT ? NULL : plan;
     filter->next = end;
     switch (filter->phase) {
     case INSOLE_PARTICLES_DRAW:
@@ -333,13 +326,12 @@ static void work_particles(insole_particle_filter_t *filter, const insole_cloud_
         move(filter, cloud, plan, first, end);
         break;
     case INSOLE_PARTICLES_STEP_WEIGH:
+        insole_step_weighing_weigh(&filter->steps, plan, cloud, first, end); /* fall through */
     case INSOLE_PARTICLES_WEIGH:
-        weigh(filter, cloud, plan, first, end);
+        insole_weighing_weigh(&filter->weighing, &filter->field, cloud, first, end);
         break;
     default:
-        for (uint32_t i = first; i < end; i++) {
-            finish_one(filter, cloud, hard, i);
-        }
+        finish(filter, cloud, filter->config.walls == INSOLE_WALLS_SOFT ? NULL : plan, first, end);
     }
     if (end == cloud->count) {
         end_phase(filter, cloud);

@@ -139,6 +139,7 @@ static inline scan_t begin_scan(const insole_floor_plan_t *plan, const way_t *wa
     scan.right = scan.block_right = index_of(box->x_high_m, plan->cells_per_m, plan->columns);
     scan.is_block = scan.right - scan.left <= 1 || scan.row == scan.last_row ||
                     insole_abs(way->dy_m) < INSOLE_FLOOR_PLAN_TOUCH_M;
+    scan.column = scan.at_row = scan.columns_per_row = scan.columns_aside = ZERO;
     if (!scan.is_block) {
         begin_columns(&scan, plan, way);
     }

@@ -36,9 +36,14 @@ insole_real_t insole_rng_uniform(insole_rng_t *rng);
 /** Normal with mean 0 and standard deviation 1. */
 insole_real_t insole_rng_normal(insole_rng_t *rng);
 
-/** Two of them, independent, for little more than the price of one. The first is the number that
- *  insole_rng_normal would have given. */
-void insole_rng_normals(insole_rng_t *rng, insole_real_t *first, insole_real_t *second);
+/** Two normal numbers. */
+typedef struct {
+    insole_real_t first, second;
+} insole_normals_t;
+
+/** Two of them, independent, for the price of one. The first is the number that insole_rng_normal
+ *  would have given. */
+insole_normals_t insole_rng_normals(insole_rng_t *rng);
 
 #ifdef __cplusplus
 }

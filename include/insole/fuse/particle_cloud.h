@@ -124,11 +124,10 @@ static inline insole_turn_t insole_cloud_direction(const insole_particle_t *part
 static inline void insole_cloud_wander(insole_particle_t *particle,
                                        const insole_cloud_stride_t *stride, insole_rng_t *rng)
 {
-    insole_real_t of_offset, of_scale;
-    insole_rng_normals(rng, &of_offset, &of_scale);
+    insole_normals_t off = insole_rng_normals(rng);
     particle->offset_rad =
-        insole_wrap_pi(particle->offset_rad + stride->apart_wander_rad * of_offset);
-    particle->scale += stride->apart_scale * of_scale;
+        insole_wrap_pi(particle->offset_rad + stride->apart_wander_rad * off.first);
+    particle->scale += stride->apart_scale * off.second;
 }
 
 /** Moves one particle by a stride, (32). Two normal numbers are drawn, one along and one across:
@@ -136,11 +135,12 @@ static inline void insole_cloud_wander(insole_particle_t *particle,
 static inline void insole_cloud_walk(insole_particle_t *particle,
                                      const insole_cloud_stride_t *stride, insole_rng_t *rng)
 {
-    insole_real_t along, across, one = INSOLE_R(1.0);
+    insole_real_t one = INSOLE_R(1.0);
     if (stride->is_apart) {
         insole_cloud_wander(particle, stride, rng);
     }
-    insole_rng_normals(rng, &along, &across);
+    insole_normals_t off = insole_rng_normals(rng);
+    insole_real_t along = off.first, across = off.second;
     particle->offset_rad = insole_wrap_pi(particle->offset_rad + stride->sigma_wander_rad * across);
     insole_turn_t direction =
         insole_cloud_direction(particle, stride->heading_rad + stride->sigma_heading_rad * across);
