@@ -111,7 +111,7 @@ static void push_samples(void)
 /* The two seconds of rest; in the second the walker's place is told. */
 static void begin_fusion(int32_t method)
 {
-    static const insole_fusion_memory_t memory = {particles, PARTICLES, NULL, 0u, NULL, 0u};
+    static const insole_fusion_memory_t memory = {.particles = particles, .count = PARTICLES};
     insole_foot_fusion_config_t config = insole_foot_fusion_defaults;
     insole_start_t start = {1000000u,      BEGIN_X_M,     CORRIDOR_Y_M, true,
                             INSOLE_R(0.0), INSOLE_R(0.3), INSOLE_R(0.1)};
