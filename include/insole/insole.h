@@ -95,6 +95,7 @@
 #include "insole/track/foot_anchor.h"
 #include "insole/track/foot_config.h"
 #include "insole/track/foot_fusion.h"
+#include "insole/track/foot_lag.h"
 #include "insole/track/foot_late.h"
 #include "insole/track/foot_smooth.h"
 #include "insole/track/foot_tracker.h"

@@ -45,8 +45,8 @@ static insole_real_t distance(const insole_circle_pair_t *pair, insole_spot_t pl
     return insole_spot_norm(insole_spot_sub(place, pair->radio)) - insole_spot_norm(pair->way);
 }
 
-insole_real_t insole_circle_start_distance(const insole_circle_pair_t *pairs, uint32_t count,
-                                           insole_spot_t place)
+INSOLE_COLD insole_real_t insole_circle_start_distance(const insole_circle_pair_t *pairs,
+                                                       uint32_t count, insole_spot_t place)
 {
     circles_t circles = circles_of(pairs, count);
     insole_real_t sum = ZERO;
@@ -195,8 +195,8 @@ static insole_real_t off_line(const circles_t *circles, const line_t *line, inso
     return sum;
 }
 
-insole_real_t insole_circle_start_direction(const insole_circle_pair_t *pairs, uint32_t count,
-                                            insole_spot_t begin)
+INSOLE_COLD insole_real_t insole_circle_start_direction(const insole_circle_pair_t *pairs,
+                                                        uint32_t count, insole_spot_t begin)
 {
     circles_t circles = circles_of(pairs, count);
     if (circles.count == 0u) {

@@ -93,7 +93,7 @@ static bool is_phone(const insole_evidence_t *evidence)
             is_compass(evidence->compass_rad, evidence->sigma_compass_rad));
 }
 
-insole_status_t insole_evidence_check(const insole_evidence_t *evidence)
+INSOLE_COLD insole_status_t insole_evidence_check(const insole_evidence_t *evidence)
 {
     if (!evidence || !is_pointed(evidence)) {
         return INSOLE_ERR_NULL;
@@ -106,8 +106,10 @@ insole_status_t insole_evidence_check(const insole_evidence_t *evidence)
     return fits && are_ranges(evidence) && is_phone(evidence) ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 
-insole_status_t insole_evidence_stride(insole_evidence_t *evidence, insole_real_t length_m,
-                                       insole_real_t heading_rad, insole_real_t turn_rad)
+INSOLE_COLD insole_status_t insole_evidence_stride(insole_evidence_t *evidence,
+                                                   insole_real_t length_m,
+                                                   insole_real_t heading_rad,
+                                                   insole_real_t turn_rad)
 {
     if (!evidence) {
         return INSOLE_ERR_NULL;
@@ -122,8 +124,9 @@ insole_status_t insole_evidence_stride(insole_evidence_t *evidence, insole_real_
     return INSOLE_OK;
 }
 
-insole_status_t insole_evidence_scatter(insole_evidence_t *evidence, insole_real_t var_length_m2,
-                                        insole_real_t var_heading_rad2)
+INSOLE_COLD insole_status_t insole_evidence_scatter(insole_evidence_t *evidence,
+                                                    insole_real_t var_length_m2,
+                                                    insole_real_t var_heading_rad2)
 {
     if (!evidence) {
         return INSOLE_ERR_NULL;
@@ -136,8 +139,8 @@ insole_status_t insole_evidence_scatter(insole_evidence_t *evidence, insole_real
     return INSOLE_OK;
 }
 
-insole_status_t insole_evidence_position(insole_evidence_t *evidence, insole_spot_t position,
-                                         insole_real_t sigma_m)
+INSOLE_COLD insole_status_t insole_evidence_position(insole_evidence_t *evidence,
+                                                     insole_spot_t position, insole_real_t sigma_m)
 {
     if (!evidence) {
         return INSOLE_ERR_NULL;
@@ -151,8 +154,8 @@ insole_status_t insole_evidence_position(insole_evidence_t *evidence, insole_spo
     return INSOLE_OK;
 }
 
-insole_status_t insole_evidence_range(insole_evidence_t *evidence,
-                                      const insole_evidence_range_t *range)
+INSOLE_COLD insole_status_t insole_evidence_range(insole_evidence_t *evidence,
+                                                  const insole_evidence_range_t *range)
 {
     if (!evidence || !range) {
         return INSOLE_ERR_NULL;
@@ -167,8 +170,9 @@ insole_status_t insole_evidence_range(insole_evidence_t *evidence,
     return INSOLE_OK;
 }
 
-insole_status_t insole_evidence_scan(insole_evidence_t *evidence, const insole_rss_t *readings,
-                                     uint32_t count, insole_spot_t since)
+INSOLE_COLD insole_status_t insole_evidence_scan(insole_evidence_t *evidence,
+                                                 const insole_rss_t *readings, uint32_t count,
+                                                 insole_spot_t since)
 {
     if (!evidence || (!readings && count > 0)) {
         return INSOLE_ERR_NULL;
@@ -183,7 +187,8 @@ insole_status_t insole_evidence_scan(insole_evidence_t *evidence, const insole_r
     return INSOLE_OK;
 }
 
-insole_status_t insole_evidence_fix(insole_evidence_t *evidence, const insole_spot_fix_t *fix)
+INSOLE_COLD insole_status_t insole_evidence_fix(insole_evidence_t *evidence,
+                                                const insole_spot_fix_t *fix)
 {
     if (!evidence || !fix) {
         return INSOLE_ERR_NULL;
@@ -195,8 +200,9 @@ insole_status_t insole_evidence_fix(insole_evidence_t *evidence, const insole_sp
     return INSOLE_OK;
 }
 
-insole_status_t insole_evidence_compass(insole_evidence_t *evidence, insole_real_t offset_rad,
-                                        insole_real_t sigma_rad)
+INSOLE_COLD insole_status_t insole_evidence_compass(insole_evidence_t *evidence,
+                                                    insole_real_t offset_rad,
+                                                    insole_real_t sigma_rad)
 {
     if (!evidence) {
         return INSOLE_ERR_NULL;
@@ -210,8 +216,8 @@ insole_status_t insole_evidence_compass(insole_evidence_t *evidence, insole_real
     return INSOLE_OK;
 }
 
-insole_status_t insole_evidence_rss(insole_evidence_t *evidence, const insole_rss_weigh_t *rss,
-                                    insole_spot_t since)
+INSOLE_COLD insole_status_t insole_evidence_rss(insole_evidence_t *evidence,
+                                                const insole_rss_weigh_t *rss, insole_spot_t since)
 {
     if (!evidence || !rss) {
         return INSOLE_ERR_NULL;
@@ -227,7 +233,7 @@ insole_status_t insole_evidence_rss(insole_evidence_t *evidence, const insole_rs
     return INSOLE_OK;
 }
 
-void insole_evidence_turn(insole_evidence_t *evidence, insole_turn_t turn)
+INSOLE_COLD void insole_evidence_turn(insole_evidence_t *evidence, insole_turn_t turn)
 {
     if (!evidence) {
         return;

@@ -7,7 +7,7 @@
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
-insole_status_t insole_cloud_check(const insole_cloud_t *cloud)
+INSOLE_COLD insole_status_t insole_cloud_check(const insole_cloud_t *cloud)
 {
     if (!cloud || !cloud->particles || (!cloud->past && cloud->past_strides > 0)) {
         return INSOLE_ERR_NULL;
@@ -62,7 +62,7 @@ static insole_real_t variance(insole_real_t mean_square, insole_real_t mean)
     return insole_max(ZERO, mean_square - mean * mean);
 }
 
-insole_status_t insole_cloud_fix(const insole_cloud_sum_t *sum, insole_cloud_fix_t *fix)
+INSOLE_COLD insole_status_t insole_cloud_fix(const insole_cloud_sum_t *sum, insole_cloud_fix_t *fix)
 {
     if (!sum || !fix) {
         return INSOLE_ERR_NULL;
@@ -200,8 +200,8 @@ static insole_real_t heaviest_of(const insole_cloud_t *cloud)
     return heaviest;
 }
 
-insole_status_t insole_cloud_recall(const insole_cloud_t *cloud, uint32_t stride,
-                                    insole_spot_t *mean)
+INSOLE_COLD insole_status_t insole_cloud_recall(const insole_cloud_t *cloud, uint32_t stride,
+                                                insole_spot_t *mean)
 {
     insole_status_t status = insole_cloud_check(cloud);
     if (status != INSOLE_OK || !mean) {

@@ -35,7 +35,8 @@ static insole_status_t check_own(const insole_particle_filter_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_particle_config_check(const insole_particle_filter_config_t *config)
+INSOLE_COLD insole_status_t
+insole_particle_config_check(const insole_particle_filter_config_t *config)
 {
     insole_status_t status = check_own(config);
     return status == INSOLE_OK ? insole_rss_field_check(&config->field) : status;
@@ -47,8 +48,8 @@ static insole_real_t wider(insole_real_t sigma, insole_real_t variances)
     return variances > ZERO ? insole_sqrt(insole_square(sigma) + variances) : sigma;
 }
 
-insole_cloud_stride_t insole_particle_config_stride(const insole_particle_filter_config_t *config,
-                                                    const insole_evidence_t *news)
+INSOLE_COLD insole_cloud_stride_t insole_particle_config_stride(
+    const insole_particle_filter_config_t *config, const insole_evidence_t *news)
 {
     insole_real_t length_var = insole_square(config->length_share * news->length_m);
     insole_real_t heading_var = insole_square(config->sigma_heading_rad);
@@ -71,8 +72,9 @@ insole_cloud_stride_t insole_particle_config_stride(const insole_particle_filter
     return stride;
 }
 
-insole_real_t insole_particle_config_scan_power(const insole_particle_filter_config_t *config,
-                                                const insole_cloud_source_t *cloud, bool is_blind)
+INSOLE_COLD insole_real_t
+insole_particle_config_scan_power(const insole_particle_filter_config_t *config,
+                                  const insole_cloud_source_t *cloud, bool is_blind)
 {
     insole_real_t least = is_blind ? config->blind_power : ONE;
     insole_real_t most = is_blind ? config->blind_search_power : config->search_power;

@@ -6,7 +6,7 @@
 
 #define SIGMA_MAX_M INSOLE_R(1e4)
 
-insole_status_t insole_particle_start_check(const insole_particle_start_t *start)
+INSOLE_COLD insole_status_t insole_particle_start_check(const insole_particle_start_t *start)
 {
     if (!start) {
         return INSOLE_ERR_NULL;
@@ -17,7 +17,7 @@ insole_status_t insole_particle_start_check(const insole_particle_start_t *start
     return fits ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 
-insole_status_t insole_particle_origin_check(const insole_particle_origin_t *origin)
+INSOLE_COLD insole_status_t insole_particle_origin_check(const insole_particle_origin_t *origin)
 {
     if (!origin) {
         return INSOLE_ERR_NULL;

@@ -71,8 +71,8 @@ static insole_sym2_t corrected(const insole_radio_bias_t *radio, insole_sym2_t P
     return insole_sym2_add(insole_sym2_map(x_left, y_left, P), insole_sym2_map(kx, ky, R));
 }
 
-insole_status_t insole_radio_bias_hear(insole_radio_bias_t *radio, const insole_spot_fix_t *fix,
-                                       bool learns)
+INSOLE_COLD insole_status_t insole_radio_bias_hear(insole_radio_bias_t *radio,
+                                                   const insole_spot_fix_t *fix, bool learns)
 {
     if (!radio || !fix) {
         return INSOLE_ERR_NULL;

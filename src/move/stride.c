@@ -16,8 +16,8 @@ insole_status_t insole_stride_check(const insole_stride_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_stride_init(insole_stride_counter_t *counter,
-                                   const insole_stride_config_t *config)
+INSOLE_COLD insole_status_t insole_stride_init(insole_stride_counter_t *counter,
+                                               const insole_stride_config_t *config)
 {
     if (!counter || !config) {
         return INSOLE_ERR_NULL;
@@ -31,7 +31,7 @@ insole_status_t insole_stride_init(insole_stride_counter_t *counter,
     return INSOLE_OK;
 }
 
-void insole_stride_restart(insole_stride_counter_t *counter)
+INSOLE_COLD void insole_stride_restart(insole_stride_counter_t *counter)
 {
     if (counter) {
         counter->has_origin = false;
@@ -40,7 +40,7 @@ void insole_stride_restart(insole_stride_counter_t *counter)
     }
 }
 
-static void begin_stride(insole_stride_counter_t *c, const insole_stride_input_t *at)
+INSOLE_COLD static void begin_stride(insole_stride_counter_t *c, const insole_stride_input_t *at)
 {
     c->origin_m = at->position_m;
     c->origin_yaw_rad = at->yaw_rad;
@@ -89,7 +89,7 @@ static bool is_far_enough(const insole_stride_counter_t *c)
 }
 
 /* The present stance is good enough to end the stride in progress. */
-static bool end_stride(insole_stride_counter_t *c, insole_stride_t *stride)
+INSOLE_COLD static bool end_stride(insole_stride_counter_t *c, insole_stride_t *stride)
 {
     c->settled = true;
     if (!c->has_origin) {

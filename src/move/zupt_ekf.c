@@ -62,7 +62,8 @@ insole_status_t insole_zupt_ekf_check(const insole_zupt_ekf_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf, const insole_zupt_ekf_config_t *config)
+INSOLE_COLD insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf,
+                                                 const insole_zupt_ekf_config_t *config)
 {
     if (!ekf || !config) {
         return INSOLE_ERR_NULL;
@@ -86,9 +87,10 @@ static void forget_motion(insole_zupt_cov_t *P)
     P->pb = P->vb = P->ab = insole_mat3_zero();
 }
 
-insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf, insole_vec3_t mean_accel_mps2,
-                                      insole_real_t sigma_tilt_rad, insole_real_t yaw_rad,
-                                      uint64_t t_us)
+INSOLE_COLD insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf,
+                                                  insole_vec3_t mean_accel_mps2,
+                                                  insole_real_t sigma_tilt_rad,
+                                                  insole_real_t yaw_rad, uint64_t t_us)
 {
     if (!ekf) {
         return INSOLE_ERR_NULL;
@@ -298,8 +300,9 @@ insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *n
     return INSOLE_OK;
 }
 
-insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ekf, insole_real_t height_m,
-                                               insole_real_t sigma_m)
+INSOLE_COLD insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ekf,
+                                                           insole_real_t height_m,
+                                                           insole_real_t sigma_m)
 {
     if (!ekf) {
         return INSOLE_ERR_NULL;
@@ -322,8 +325,9 @@ insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ekf, insole_re
     return INSOLE_OK;
 }
 
-insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf, insole_vec3_t velocity_mps,
-                                      insole_real_t sigma_mps, uint64_t t_us)
+INSOLE_COLD insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf,
+                                                  insole_vec3_t velocity_mps,
+                                                  insole_real_t sigma_mps, uint64_t t_us)
 {
     if (!ekf) {
         return INSOLE_ERR_NULL;

@@ -332,7 +332,7 @@ static insole_real_t nearest_m2(const insole_floor_plan_t *plan, const way_t *at
     return nearest;
 }
 
-insole_status_t insole_floor_plan_clearance(const insole_floor_plan_t *plan, insole_real_t x_m,
+INSOLE_COLD insole_status_t insole_floor_plan_clearance(const insole_floor_plan_t *plan, insole_real_t x_m,
                                             insole_real_t y_m, insole_real_t limit_m,
                                             insole_real_t *distance_m)
 {
@@ -347,7 +347,7 @@ insole_status_t insole_floor_plan_clearance(const insole_floor_plan_t *plan, ins
     return INSOLE_OK;
 }
 
-bool insole_floor_plan_is_closed(const insole_floor_plan_t *plan, insole_real_t x_m,
+INSOLE_COLD bool insole_floor_plan_is_closed(const insole_floor_plan_t *plan, insole_real_t x_m,
                                  insole_real_t y_m, insole_real_t depth_m)
 {
     if (plan == NULL || insole_floor_plan_inside(plan, x_m, y_m)) {

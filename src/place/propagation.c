@@ -79,10 +79,11 @@ insole_status_t insole_propagation_expect(const insole_propagation_config_t *con
     return INSOLE_OK;
 }
 
-insole_status_t insole_propagation_range(const insole_propagation_config_t *config,
-                                         const insole_ap_t *ap, insole_real_t rss_dbm,
-                                         insole_real_t wall_loss_db, insole_real_t body_share,
-                                         insole_rss_range_t *range)
+INSOLE_COLD insole_status_t insole_propagation_range(const insole_propagation_config_t *config,
+                                                     const insole_ap_t *ap, insole_real_t rss_dbm,
+                                                     insole_real_t wall_loss_db,
+                                                     insole_real_t body_share,
+                                                     insole_rss_range_t *range)
 {
     if (!config || !ap || !range) {
         return INSOLE_ERR_NULL;
@@ -100,9 +101,9 @@ insole_status_t insole_propagation_range(const insole_propagation_config_t *conf
     return INSOLE_OK;
 }
 
-insole_status_t insole_propagation_nearest(const insole_ap_t *aps, uint32_t ap_count,
-                                           const insole_rss_t *readings, uint32_t count,
-                                           uint32_t *reading)
+INSOLE_COLD insole_status_t insole_propagation_nearest(const insole_ap_t *aps, uint32_t ap_count,
+                                                       const insole_rss_t *readings, uint32_t count,
+                                                       uint32_t *reading)
 {
     if (!aps || !readings || !reading) {
         return INSOLE_ERR_NULL;

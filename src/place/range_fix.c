@@ -135,10 +135,11 @@ static bool iterate(const problem_t *problem, const insole_known_t *known, insol
     return insole_vec3_is_finite(*x);
 }
 
-insole_status_t insole_range_fix_solve(const insole_range_fix_config_t *config,
-                                       const insole_ap_t *aps, uint32_t ap_count,
-                                       const insole_range_t *ranges, uint32_t count,
-                                       const insole_anchor_fix_t *before, insole_anchor_fix_t *fix)
+INSOLE_COLD insole_status_t insole_range_fix_solve(const insole_range_fix_config_t *config,
+                                                   const insole_ap_t *aps, uint32_t ap_count,
+                                                   const insole_range_t *ranges, uint32_t count,
+                                                   const insole_anchor_fix_t *before,
+                                                   insole_anchor_fix_t *fix)
 {
     if (!config || !aps || !ranges || !fix) {
         return INSOLE_ERR_NULL;
@@ -168,8 +169,8 @@ static void fade(insole_real_t *variance, insole_real_t by)
     }
 }
 
-insole_status_t insole_range_fix_age(const insole_range_fix_config_t *config,
-                                     insole_anchor_fix_t *fix, insole_real_t dt_s)
+INSOLE_COLD insole_status_t insole_range_fix_age(const insole_range_fix_config_t *config,
+                                                 insole_anchor_fix_t *fix, insole_real_t dt_s)
 {
     if (!config || !fix) {
         return INSOLE_ERR_NULL;

@@ -36,7 +36,8 @@ static bool covariance_of(insole_sym3_t information, insole_sym3_t *P)
     return invert(information, P);
 }
 
-bool insole_robust_fit_recall(insole_known_t *known, insole_vec3_t mean, insole_sym3_t P)
+INSOLE_COLD bool insole_robust_fit_recall(insole_known_t *known, insole_vec3_t mean,
+                                          insole_sym3_t P)
 {
     insole_sym3_t more, sum_P;
     if (!invert(P, &more)) {
@@ -56,7 +57,8 @@ bool insole_robust_fit_recall(insole_known_t *known, insole_vec3_t mean, insole_
     return true;
 }
 
-insole_robust_fit_t insole_robust_fit_begin(const insole_known_t *known, insole_vec3_t x)
+INSOLE_COLD insole_robust_fit_t insole_robust_fit_begin(const insole_known_t *known,
+                                                        insole_vec3_t x)
 {
     insole_robust_fit_t fit = {
         insole_sym3_mul_vec(known->information, insole_vec3_sub(known->mean, x)),
@@ -77,8 +79,8 @@ static void add_bend(insole_robust_fit_t *fit, const insole_robust_reading_t *re
     }
 }
 
-void insole_robust_fit_add(insole_robust_fit_t *fit, const insole_robust_reading_t *reading,
-                           insole_real_t loosen)
+INSOLE_COLD void insole_robust_fit_add(insole_robust_fit_t *fit,
+                                       const insole_robust_reading_t *reading, insole_real_t loosen)
 {
     insole_real_t ratio = reading->residual / (reading->sigma * reading->tail * loosen);
     insole_real_t weight = ONE / (insole_square(reading->sigma) * (ONE + ratio * ratio));
@@ -87,7 +89,8 @@ void insole_robust_fit_add(insole_robust_fit_t *fit, const insole_robust_reading
     add_bend(fit, reading, weight);
 }
 
-bool insole_robust_fit_step(const insole_robust_fit_t *fit, insole_vec3_t *step, insole_sym3_t *P)
+INSOLE_COLD bool insole_robust_fit_step(const insole_robust_fit_t *fit, insole_vec3_t *step,
+                                        insole_sym3_t *P)
 {
     insole_vec3_t last = *step;
     if (!covariance_of(fit->information, P)) {
@@ -103,8 +106,8 @@ bool insole_robust_fit_step(const insole_robust_fit_t *fit, insole_vec3_t *step,
     return insole_vec3_is_finite(*step);
 }
 
-insole_real_t insole_robust_fit_loosening(insole_real_t loosen, int32_t iteration,
-                                          int32_t iterations)
+INSOLE_COLD insole_real_t insole_robust_fit_loosening(insole_real_t loosen, int32_t iteration,
+                                                      int32_t iterations)
 {
     insole_real_t rest = ONE - INSOLE_R(2.0) * (insole_real_t)iteration / (insole_real_t)iterations;
     return ONE + (loosen - ONE) * insole_max(ZERO, rest);

@@ -30,8 +30,8 @@ insole_status_t insole_rss_field_check(const insole_rss_field_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_rss_field_init(insole_rss_field_t *field,
-                                      const insole_rss_field_config_t *config)
+INSOLE_COLD insole_status_t insole_rss_field_init(insole_rss_field_t *field,
+                                                  const insole_rss_field_config_t *config)
 {
     insole_status_t status = insole_rss_field_check(config);
     if (!field || status != INSOLE_OK) {
@@ -43,29 +43,22 @@ insole_status_t insole_rss_field_init(insole_rss_field_t *field,
 
 /* ---- the scan ---- */
 
-typedef struct {
-    uint32_t count;
-    uint32_t id[INSOLE_RSS_FIELD_HEARD];
-    insole_real_t dbm[INSOLE_RSS_FIELD_HEARD];
-} heard_t;
-
 /* Keeps the strongest, sorted; of equals the first stays in front. */
-static void insert(heard_t *heard, const insole_rss_t *reading)
+static void insert(insole_rss_field_t *field, const insole_rss_t *reading)
 {
-    uint32_t at = heard->count;
+    uint32_t *id = field->heard_id, at = field->heard_count;
+    insole_real_t *dbm = field->heard_dbm;
     if (at < INSOLE_RSS_FIELD_HEARD) {
-        heard->count++;
-    } else if (reading->rss_dbm > heard->dbm[--at]) {
-        heard->dbm[at] = reading->rss_dbm;
-    } else {
+        field->heard_count++;
+    } else if (!(reading->rss_dbm > dbm[--at])) {
         return;
     }
-    for (; at > 0 && reading->rss_dbm > heard->dbm[at - 1u]; at--) {
-        heard->id[at] = heard->id[at - 1u];
-        heard->dbm[at] = heard->dbm[at - 1u];
+    for (; at > 0 && reading->rss_dbm > dbm[at - 1u]; at--) {
+        id[at] = id[at - 1u];
+        dbm[at] = dbm[at - 1u];
     }
-    heard->id[at] = reading->id;
-    heard->dbm[at] = reading->rss_dbm;
+    id[at] = reading->id;
+    dbm[at] = reading->rss_dbm;
 }
 
 static insole_spot_t spot_of_ap(const insole_ap_t *ap)
@@ -80,35 +73,41 @@ static bool is_usable(const insole_rss_t *reading, const insole_building_t *buil
            insole_spot_is_finite(spot_of_ap(&building->aps[reading->id]));
 }
 
-static void keep_strongest(heard_t *heard, const insole_building_t *building,
+static bool is_any_usable(const insole_building_t *building, const insole_rss_t *readings,
+                          uint32_t count)
+{
+    uint32_t i = 0;
+    while (i < count && !is_usable(&readings[i], building)) {
+        i++;
+    }
+    return i < count;
+}
+
+static void keep_strongest(insole_rss_field_t *field, const insole_building_t *building,
                            const insole_rss_t *readings, uint32_t count)
 {
-    heard->count = 0;
+    field->heard_count = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (is_usable(&readings[i], building)) {
-            insert(heard, &readings[i]);
+            insert(field, &readings[i]);
         }
     }
 }
 
-insole_status_t insole_rss_field_hear(insole_rss_field_t *field, const insole_building_t *building,
-                                      const insole_rss_t *readings, uint32_t count)
+INSOLE_COLD insole_status_t insole_rss_field_hear(insole_rss_field_t *field,
+                                                  const insole_building_t *building,
+                                                  const insole_rss_t *readings, uint32_t count)
 {
     if (!field || !building || !building->propagation || !building->aps ||
         (!readings && count > 0)) {
         return INSOLE_ERR_NULL;
     }
-    heard_t heard;
-    keep_strongest(&heard, building, readings, count);
-    if (heard.count == 0) {
+    if (!is_any_usable(building, readings, count)) {
         return INSOLE_ERR_STATE;
     }
-    field->heard_count = heard.count;
-    for (uint32_t k = 0; k < heard.count; k++) {
-        field->heard_id[k] = heard.id[k];
-        field->heard_dbm[k] = heard.dbm[k];
-    }
-    insole_wall_losses_reserve(&field->losses, field->heard_id, heard.count, field->heard_slot);
+    keep_strongest(field, building, readings, count);
+    insole_wall_losses_reserve(&field->losses, field->heard_id, field->heard_count,
+                               field->heard_slot);
     const insole_rss_fix_config_t *config =
         building->rss_fix ? building->rss_fix : &insole_rss_fix_defaults;
     field->points_elsewhere =
@@ -175,7 +174,8 @@ INSOLE_FLAT void insole_rss_field_need(insole_rss_field_t *field, insole_real_t 
     node[SIDE + 1].needed = true;
 }
 
-insole_status_t insole_rss_field_place(insole_rss_field_t *field, const insole_rss_around_t *around)
+INSOLE_COLD insole_status_t insole_rss_field_place(insole_rss_field_t *field,
+                                                   const insole_rss_around_t *around)
 {
     if (!field || !around) {
         return INSOLE_ERR_NULL;
@@ -365,7 +365,7 @@ static void learn_offset(insole_rss_field_t *field)
     field->offset_db = insole_max(-limit, insole_min(offset_db, limit));
 }
 
-insole_status_t insole_rss_field_learn(insole_rss_field_t *field)
+INSOLE_COLD insole_status_t insole_rss_field_learn(insole_rss_field_t *field)
 {
     if (!field) {
         return INSOLE_ERR_NULL;

@@ -149,11 +149,11 @@ static insole_anchor_fix_t fix_at(const problem_t *problem, insole_vec3_t x, ins
     return fix;
 }
 
-insole_status_t insole_rss_fix_solve(const insole_rss_fix_config_t *config,
-                                     const insole_propagation_config_t *propagation,
-                                     const insole_ap_t *aps, uint32_t ap_count,
-                                     const insole_rss_t *readings, uint32_t count,
-                                     insole_anchor_fix_t *fix)
+INSOLE_COLD insole_status_t insole_rss_fix_solve(const insole_rss_fix_config_t *config,
+                                                 const insole_propagation_config_t *propagation,
+                                                 const insole_ap_t *aps, uint32_t ap_count,
+                                                 const insole_rss_t *readings, uint32_t count,
+                                                 insole_anchor_fix_t *fix)
 {
     if (!config || !propagation || !aps || !readings || !fix) {
         return INSOLE_ERR_NULL;

@@ -22,7 +22,7 @@ static void give_slot(insole_wall_losses_slot_t *slot, uint32_t id)
     }
 }
 
-insole_status_t insole_wall_losses_init(insole_wall_losses_t *losses)
+INSOLE_COLD insole_status_t insole_wall_losses_init(insole_wall_losses_t *losses)
 {
     if (!losses) {
         return INSOLE_ERR_NULL;
@@ -83,8 +83,9 @@ static int32_t lowest_number(insole_real_t centre_m, insole_real_t spacing_m)
     return floor_of(centre_m / spacing_m - HALF * (insole_real_t)(SIDE - 2));
 }
 
-insole_status_t insole_wall_losses_move(insole_wall_losses_t *losses, insole_real_t spacing_m,
-                                        insole_real_t x_m, insole_real_t y_m)
+INSOLE_COLD insole_status_t insole_wall_losses_move(insole_wall_losses_t *losses,
+                                                    insole_real_t spacing_m, insole_real_t x_m,
+                                                    insole_real_t y_m)
 {
     if (!losses) {
         return INSOLE_ERR_NULL;
@@ -147,8 +148,9 @@ static uint32_t slot_for(insole_wall_losses_t *losses, uint32_t id, const uint32
     return free;
 }
 
-insole_status_t insole_wall_losses_reserve(insole_wall_losses_t *losses, const uint32_t *ids,
-                                           uint32_t count, uint32_t *slots)
+INSOLE_COLD insole_status_t insole_wall_losses_reserve(insole_wall_losses_t *losses,
+                                                       const uint32_t *ids, uint32_t count,
+                                                       uint32_t *slots)
 {
     if (!losses || (count > 0 && (!ids || !slots))) {
         return INSOLE_ERR_NULL;

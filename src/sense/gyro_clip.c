@@ -21,8 +21,8 @@ static const insole_real_t TOP_PER_FALL = INSOLE_R(3.0);
 /* A top that some rate exceeds by this factor is none of the sensor's. */
 static const insole_real_t DISPROOF = INSOLE_R(1.2);
 
-insole_status_t insole_gyro_clip_init(insole_gyro_clip_t *clip, insole_real_t range_radps,
-                                      insole_real_t share)
+INSOLE_COLD insole_status_t insole_gyro_clip_init(insole_gyro_clip_t *clip,
+                                                  insole_real_t range_radps, insole_real_t share)
 {
     if (!clip) {
         return INSOLE_ERR_NULL;

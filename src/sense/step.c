@@ -135,7 +135,7 @@ static void learn(insole_step_counter_t *c)
 }
 
 /* The first of the held steps borrows from the second; the walker is known from all others. */
-INSOLE_COLD static void begin_walk(insole_step_counter_t *c)
+static void begin_walk(insole_step_counter_t *c)
 {
     borrow(newest_footfall(c, c->held), newest_footfall(c, c->held - 1u));
     insole_real_t shortest_s = c->config.max_interval_s, sum_mps2 = ZERO;

@@ -21,8 +21,8 @@ insole_status_t insole_still_bias_check(const insole_still_bias_config_t *config
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
-                                       const insole_still_bias_config_t *config)
+INSOLE_COLD insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
+                                                   const insole_still_bias_config_t *config)
 {
     if (!rest || !config) {
         return INSOLE_ERR_NULL;
@@ -127,7 +127,7 @@ static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
 }
 
 /* A full block against the one before. */
-static void end_block(insole_still_bias_t *rest)
+INSOLE_COLD static void end_block(insole_still_bias_t *rest)
 {
     const insole_still_bias_config_t *c = &rest->config;
     insole_still_moments_t now = moments_of(&rest->block), *before = &rest->before;

@@ -11,8 +11,9 @@ static bool is_positive(insole_real_t x)
     return x > ZERO && insole_is_finite(x);
 }
 
-insole_status_t insole_still_window_init(insole_still_window_t *window,
-                                         const insole_still_scale_t *scale, uint32_t width)
+INSOLE_COLD insole_status_t insole_still_window_init(insole_still_window_t *window,
+                                                     const insole_still_scale_t *scale,
+                                                     uint32_t width)
 {
     if (!window || !scale) {
         return INSOLE_ERR_NULL;

@@ -30,8 +30,8 @@ insole_status_t insole_zero_velocity_check(const insole_zero_velocity_config_t *
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
-                                          const insole_zero_velocity_config_t *config)
+INSOLE_COLD insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
+                                                      const insole_zero_velocity_config_t *config)
 {
     if (!zv || !config) {
         return INSOLE_ERR_NULL;
@@ -355,7 +355,7 @@ static void measure_rest(insole_zero_velocity_t *zv)
     }
 }
 
-insole_status_t insole_zero_velocity_finish(insole_zero_velocity_t *zv)
+INSOLE_COLD insole_status_t insole_zero_velocity_finish(insole_zero_velocity_t *zv)
 {
     if (!zv) {
         return INSOLE_ERR_NULL;

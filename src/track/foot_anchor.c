@@ -18,8 +18,8 @@ static const insole_real_t ANY_TURN_RAD2 = INSOLE_PI * INSOLE_PI;
 static const insole_real_t FARTHEST_M = INSOLE_R(1.0e6); /* a start beyond is an error */
 static const insole_real_t TURNS_RAD = INSOLE_R(100.0);  /* and so is such a heading */
 
-insole_status_t insole_foot_anchor_init(insole_foot_anchor_t *anchor, insole_real_t drift_radps,
-                                        uint64_t t_us)
+INSOLE_COLD insole_status_t insole_foot_anchor_init(insole_foot_anchor_t *anchor,
+                                                    insole_real_t drift_radps, uint64_t t_us)
 {
     if (!anchor) {
         return INSOLE_ERR_NULL;
@@ -34,7 +34,7 @@ insole_status_t insole_foot_anchor_init(insole_foot_anchor_t *anchor, insole_rea
     return INSOLE_OK;
 }
 
-insole_status_t insole_foot_anchor_check(const insole_start_t *start)
+INSOLE_COLD insole_status_t insole_foot_anchor_check(const insole_start_t *start)
 {
     if (!start) {
         return INSOLE_ERR_NULL;
@@ -46,8 +46,9 @@ insole_status_t insole_foot_anchor_check(const insole_start_t *start)
     return place && (heading || !start->has_heading) ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 
-insole_status_t insole_foot_anchor_start(insole_foot_anchor_t *anchor, const insole_start_t *start,
-                                         insole_vec3_t position_n_m, uint64_t t_us)
+INSOLE_COLD insole_status_t insole_foot_anchor_start(insole_foot_anchor_t *anchor,
+                                                     const insole_start_t *start,
+                                                     insole_vec3_t position_n_m, uint64_t t_us)
 {
     if (!anchor) {
         return INSOLE_ERR_NULL;
@@ -94,8 +95,10 @@ insole_status_t insole_foot_anchor_follow(insole_foot_anchor_t *anchor, insole_v
     return INSOLE_OK;
 }
 
-insole_status_t insole_foot_anchor_renew(insole_foot_anchor_t *anchor, const insole_fix_t *fix_m,
-                                         insole_vec3_t position_n_m, insole_real_t turn_rad2)
+INSOLE_COLD insole_status_t insole_foot_anchor_renew(insole_foot_anchor_t *anchor,
+                                                     const insole_fix_t *fix_m,
+                                                     insole_vec3_t position_n_m,
+                                                     insole_real_t turn_rad2)
 {
     if (!anchor || !fix_m) {
         return INSOLE_ERR_NULL;

@@ -15,7 +15,7 @@ static insole_status_t check_own(const insole_foot_tracker_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_foot_config_check(const insole_foot_tracker_config_t *config)
+INSOLE_COLD insole_status_t insole_foot_config_check(const insole_foot_tracker_config_t *config)
 {
     if (!config) {
         return INSOLE_ERR_NULL;

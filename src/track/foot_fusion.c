@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/track/foot_fusion.h"
 
+#include <stddef.h>
+#include <string.h>
+
 #include "insole/track/fusion_fix.h"
 
 #define ZERO INSOLE_R(0.0)
@@ -18,27 +21,38 @@ static const insole_fusion_unknown_t STRAY = {INSOLE_R(25.0), INSOLE_R(0.1)};
 /* A heading told so vaguely is compared with the first stride alone. */
 #define VAGUE_RAD INSOLE_R(0.3)
 
-insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion,
-                                        const insole_foot_fusion_config_t *config,
-                                        const insole_fusion_memory_t *memory,
-                                        const insole_building_t *building, uint64_t seed)
+static insole_foot_fusion_own_t own_of(const insole_foot_fusion_config_t *config)
+{
+    insole_foot_fusion_own_t own;
+    memcpy(&own, config,
+           offsetof(insole_foot_fusion_own_t, rss_fix)); /* both begin with the list */
+    own.rss_fix = config->rss_fix;
+    own.range_fix = config->range_fix;
+    return own;
+}
+
+INSOLE_COLD insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion,
+                                                    const insole_foot_fusion_config_t *config,
+                                                    const insole_fusion_memory_t *memory,
+                                                    const insole_building_t *building,
+                                                    uint64_t seed)
 {
     if (!fusion || !config || !memory) {
         return INSOLE_ERR_NULL;
     }
     insole_status_t status = insole_fusion_config_check(config);
-    status = status == INSOLE_OK ? insole_fusion_memory_check(memory, config->lag_s) : status;
+    status = status == INSOLE_OK ? insole_fusion_memory_check(memory, config) : status;
     if (status != INSOLE_OK) {
         return status;
     }
-    *fusion = (insole_foot_fusion_t){.config = *config, .memory = *memory, .building = building};
+    memset(fusion, 0, sizeof *fusion);
+    fusion->config = own_of(config);
+    fusion->memory = *memory;
+    fusion->building = building;
     bool printed = config->method == INSOLE_FUSION_TWO_ORDER;
     (void)insole_foot_tracker_init(&fusion->foot, &config->foot);
-    (void)insole_fusion_start_init(&fusion->start, printed ? 1 : config->start_fixes);
-    (void)insole_particle_filter_init(&fusion->particles,
-                                      printed ? &config->two_order : &config->particles, seed);
-    return insole_foot_late_init(&fusion->late, memory->late,
-                                 memory->late ? memory->late_count : 0u);
+    return insole_particle_filter_init(&fusion->particles,
+                                       printed ? &config->two_order : &config->particles, seed);
 }
 
 static insole_status_t answer(insole_foot_fusion_t *fusion, insole_status_t status)
@@ -47,7 +61,8 @@ static insole_status_t answer(insole_foot_fusion_t *fusion, insole_status_t stat
     return status;
 }
 
-insole_status_t insole_foot_fusion_start(insole_foot_fusion_t *fusion, const insole_start_t *start)
+INSOLE_COLD insole_status_t insole_foot_fusion_start(insole_foot_fusion_t *fusion,
+                                                     const insole_start_t *start)
 {
     if (!fusion) {
         return INSOLE_ERR_NULL;
@@ -62,7 +77,7 @@ insole_status_t insole_foot_fusion_imu(insole_foot_fusion_t *fusion, const insol
     return fusion ? insole_foot_tracker_imu(&fusion->foot, imu) : INSOLE_ERR_NULL;
 }
 
-insole_status_t insole_foot_fusion_finish(insole_foot_fusion_t *fusion)
+INSOLE_COLD insole_status_t insole_foot_fusion_finish(insole_foot_fusion_t *fusion)
 {
     if (!fusion) {
         return INSOLE_ERR_NULL;
@@ -82,6 +97,7 @@ static insole_fusion_site_t site_of(const insole_foot_fusion_t *f)
     insole_fusion_site_t site = {f->building,
                                  &f->config.rss_fix,
                                  &f->config.range_fix,
+                                 f->memory.ranges,
                                  f->config.method == INSOLE_FUSION_WIFI,
                                  f->config.method == INSOLE_FUSION_TWO_ORDER,
                                  f->config.sigma_range_m};
@@ -129,7 +145,7 @@ static void mix_in_radio(const insole_foot_fusion_t *f, insole_real_t yaw_rad, i
     (void)insole_fusion_radio_mix(&f->radio, foot_n(f), insole_turn(yaw_rad), var_m2, fix);
 }
 
-static void begin(insole_foot_fusion_t *f, const insole_particle_start_t *start)
+INSOLE_COLD static void begin(insole_foot_fusion_t *f, const insole_particle_start_t *start)
 {
     insole_cloud_t cloud = insole_fusion_cloud(&f->memory);
     if (insole_particle_filter_start(&f->particles, &cloud, start) != INSOLE_OK) {
@@ -142,11 +158,10 @@ static void begin(insole_foot_fusion_t *f, const insole_particle_start_t *start)
     insole_fusion_gap_close(&f->gap);
     f->doubt = 0u;
     f->counts.starts++;
-    (void)insole_foot_late_stride(&f->late, 0u, f->strides.told_n_m);
 }
 
-static void begin_at(insole_foot_fusion_t *f, insole_fix_t fix, insole_real_t var_m2,
-                     insole_real_t yaw_rad, insole_real_t sigma_rad)
+INSOLE_COLD static void begin_at(insole_foot_fusion_t *f, insole_fix_t fix, insole_real_t var_m2,
+                                 insole_real_t yaw_rad, insole_real_t sigma_rad)
 {
     fix.var_x_m2 = var_m2;
     mix_in_radio(f, yaw_rad, var_m2, &fix);
@@ -163,7 +178,7 @@ static bool is_at_start(const insole_foot_fusion_t *f)
 }
 
 /* A told start serves once the foot has reached it and its direction, if told, has been walked. */
-static void begin_as_told(insole_foot_fusion_t *f, const insole_fix_t *foot)
+INSOLE_COLD static void begin_as_told(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
     const insole_foot_anchor_t *anchor = &f->foot.anchor;
     insole_real_t sigma_rad = f->foot.start.has_heading ? insole_sqrt(anchor->var_rad2) : INSOLE_PI;
@@ -174,11 +189,19 @@ static void begin_as_told(insole_foot_fusion_t *f, const insole_fix_t *foot)
     begin_at(f, *foot, anchor->var_m2, anchor->yaw_rad, sigma_rad);
 }
 
+static bool hear_start(insole_foot_fusion_t *f, insole_particle_start_t *start)
+{
+    const insole_fusion_starter_t *starter = &f->memory.starter;
+    bool takes_first = f->config.method == INSOLE_FUSION_TWO_ORDER || f->config.start_fixes == 1;
+    return takes_first ? insole_fusion_start_first(&f->radio, start)
+                       : starter->hear(starter->state, &f->radio, start);
+}
+
 /* Nobody tells: radio does. The paper's inertial position begins there too, with n as m lies. */
-static void begin_by_radio(insole_foot_fusion_t *f, uint64_t t_us)
+INSOLE_COLD static void begin_by_radio(insole_foot_fusion_t *f, uint64_t t_us)
 {
     insole_particle_start_t start;
-    if (!insole_fusion_start_hear(&f->start, &f->radio, &start)) {
+    if (!hear_start(f, &start)) {
         return;
     }
     start.sigma_m += f->config.unsure_start_m;
@@ -191,8 +214,8 @@ static void begin_by_radio(insole_foot_fusion_t *f, uint64_t t_us)
 }
 
 /* The particles go on where the foot seems to have come to, as wide as it has lost its way. */
-static void begin_after_gap(insole_foot_fusion_t *f, const insole_fix_t *foot,
-                            insole_fusion_unknown_t lost)
+INSOLE_COLD static void begin_after_gap(insole_foot_fusion_t *f, const insole_fix_t *foot,
+                                        insole_fusion_unknown_t lost)
 {
     insole_fix_t fix = *foot;
     fix_by_particles(f, &fix);
@@ -202,7 +225,7 @@ static void begin_after_gap(insole_foot_fusion_t *f, const insole_fix_t *foot,
 }
 
 /* After a gap radio may say more than the way; it is not waited for long. */
-static void cross_gap(insole_foot_fusion_t *f, const insole_fix_t *foot)
+INSOLE_COLD static void cross_gap(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
     insole_fusion_site_t site = site_of(f);
     bool waits = insole_fusion_radio_has_aps(&site) && !f->radio.has_fix &&
@@ -239,7 +262,7 @@ static void tell_stride(insole_foot_fusion_t *f, const insole_fix_t *foot)
     }
 }
 
-static void gather_stride(insole_foot_fusion_t *f)
+INSOLE_COLD static void gather_stride(insole_foot_fusion_t *f)
 {
     insole_stride_t stride;
     if (insole_foot_tracker_stride(&f->foot, &stride) == INSOLE_OK && f->counts.starts > 0u) {
@@ -254,7 +277,7 @@ static bool has_news(const insole_foot_fusion_t *f, uint64_t t_us)
            insole_fusion_radio_waits(&f->radio, t_us > PATIENCE_US ? t_us - PATIENCE_US : 0u);
 }
 
-static void tell(insole_foot_fusion_t *f, const insole_fix_t *foot)
+INSOLE_COLD static void tell(insole_foot_fusion_t *f, const insole_fix_t *foot)
 {
     if (f->working || f->counts.starts == 0u || f->gap.is_open || !has_news(f, foot->t_us)) {
         return;
@@ -267,7 +290,6 @@ static void tell(insole_foot_fusion_t *f, const insole_fix_t *foot)
     }
     (void)insole_fusion_radio_tell(&f->radio, &site, f->strides.told_n_m, &f->news);
     f->working = insole_particle_filter_begin(&f->particles, f->building, &f->news) == INSOLE_OK;
-    (void)insole_foot_late_stride(&f->late, f->particles.since_start, f->strides.told_n_m);
 }
 
 /* A cloud is believed when it is narrow, has not just died out and fits. */
@@ -278,7 +300,7 @@ static bool is_good(const insole_foot_fusion_t *f, insole_real_t var_m2)
 }
 
 /* Whoever has lost the way is believed after some strides through which the cloud was good. */
-static void follow_work(insole_foot_fusion_t *f)
+INSOLE_COLD static void follow_work(insole_foot_fusion_t *f)
 {
     const insole_cloud_fix_t *cloud = &f->particles.fix;
     if (insole_particle_filter_has_settled(&f->particles)) {
@@ -360,32 +382,6 @@ static insole_status_t step(insole_foot_fusion_t *f, insole_fix_t *fix)
     return status;
 }
 
-static insole_status_t take_late(insole_foot_fusion_t *f, insole_fix_t *fix)
-{
-    insole_cloud_t cloud = insole_fusion_cloud(&f->memory);
-    return insole_foot_late_take(&f->late, &f->particles, &cloud, f->counts.starts, fix);
-}
-
-/* Fixes go in at the young end of what waits until the oldest is due. */
-static insole_status_t next_late(insole_foot_fusion_t *f, insole_fix_t *fix)
-{
-    uint32_t lag_us = (uint32_t)(f->config.lag_s * INSOLE_R(1e6));
-    while (!insole_foot_late_is_due(&f->late, lag_us)) {
-        insole_late_row_t row;
-        if (f->finished && f->working) {
-            return INSOLE_ERR_STATE;
-        }
-        if (step(f, &row.fix) != INSOLE_OK) {
-            return f->finished ? take_late(f, fix) : INSOLE_ERR_STATE;
-        }
-        row.n_m = foot_n(f);
-        row.stride = f->particles.since_start;
-        row.start = f->counts.starts;
-        (void)insole_foot_late_push(&f->late, &row);
-    }
-    return take_late(f, fix);
-}
-
 insole_status_t insole_foot_fusion_next(insole_foot_fusion_t *fusion, insole_fix_t *fix)
 {
     if (!fusion || !fix) {
@@ -394,5 +390,5 @@ insole_status_t insole_foot_fusion_next(insole_foot_fusion_t *fusion, insole_fix
     if (fusion->config.method == INSOLE_FUSION_WIFI) {
         return insole_fusion_radio_take(&fusion->radio, fix);
     }
-    return fusion->config.lag_s > ZERO ? next_late(fusion, fix) : step(fusion, fix);
+    return step(fusion, fix);
 }

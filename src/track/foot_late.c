@@ -15,8 +15,8 @@
 #define STRETCH_MIN INSOLE_R(0.5)
 #define STRETCH_MAX INSOLE_R(2.0)
 
-insole_status_t insole_foot_late_init(insole_foot_late_t *late, insole_late_row_t *rows,
-                                      uint32_t room)
+INSOLE_COLD insole_status_t insole_foot_late_init(insole_foot_late_t *late, insole_late_row_t *rows,
+                                                  uint32_t room)
 {
     if (!late || (!rows && room > 0u)) {
         return INSOLE_ERR_NULL;
@@ -27,8 +27,8 @@ insole_status_t insole_foot_late_init(insole_foot_late_t *late, insole_late_row_
     return INSOLE_OK;
 }
 
-insole_status_t insole_foot_late_stride(insole_foot_late_t *late, uint32_t number,
-                                        insole_spot_t n_m)
+INSOLE_COLD insole_status_t insole_foot_late_stride(insole_foot_late_t *late, uint32_t number,
+                                                    insole_spot_t n_m)
 {
     if (!late) {
         return INSOLE_ERR_NULL;
@@ -142,10 +142,10 @@ static void correct(const insole_foot_late_t *late, const insole_late_row_t *row
     fix->position_m.y = late->begin_m_m.y_m + gone.y_m;
 }
 
-insole_status_t insole_foot_late_take(insole_foot_late_t *late,
-                                      const insole_particle_filter_t *particles,
-                                      const insole_cloud_t *cloud, uint32_t start,
-                                      insole_fix_t *fix)
+INSOLE_COLD insole_status_t insole_foot_late_take(insole_foot_late_t *late,
+                                                  const insole_particle_filter_t *particles,
+                                                  const insole_cloud_t *cloud, uint32_t start,
+                                                  insole_fix_t *fix)
 {
     if (!late || !particles || !cloud || !fix) {
         return INSOLE_ERR_NULL;

@@ -9,8 +9,8 @@
 static const insole_real_t BRIDGE_ACCEL_MPS2 = INSOLE_R(4.0);
 static const insole_real_t BRIDGE_GYRO_RADPS = INSOLE_R(0.7);
 
-insole_status_t insole_foot_tracker_init(insole_foot_tracker_t *tracker,
-                                         const insole_foot_tracker_config_t *config)
+INSOLE_COLD insole_status_t insole_foot_tracker_init(insole_foot_tracker_t *tracker,
+                                                     const insole_foot_tracker_config_t *config)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;
@@ -20,7 +20,7 @@ insole_status_t insole_foot_tracker_init(insole_foot_tracker_t *tracker,
         return status;
     }
     memset(tracker, 0, sizeof *tracker);
-    tracker->config = *config;
+    memcpy(&tracker->config, config, sizeof tracker->config); /* both begin with the list */
     (void)insole_screen_init(&tracker->screen, &config->screen);
     (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
     (void)insole_zero_velocity_init(&tracker->zero_velocity, &config->zero_velocity);
@@ -30,8 +30,8 @@ insole_status_t insole_foot_tracker_init(insole_foot_tracker_t *tracker,
     return INSOLE_OK;
 }
 
-insole_status_t insole_foot_tracker_start(insole_foot_tracker_t *tracker,
-                                          const insole_start_t *start)
+INSOLE_COLD insole_status_t insole_foot_tracker_start(insole_foot_tracker_t *tracker,
+                                                      const insole_start_t *start)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;
@@ -76,7 +76,7 @@ insole_status_t insole_foot_tracker_imu(insole_foot_tracker_t *tracker, const in
     return status;
 }
 
-insole_status_t insole_foot_tracker_finish(insole_foot_tracker_t *tracker)
+INSOLE_COLD insole_status_t insole_foot_tracker_finish(insole_foot_tracker_t *tracker)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;
@@ -106,8 +106,8 @@ static bool stance_is_summed(insole_foot_tracker_t *t, const insole_labelled_t *
     return insole_seconds(t->still_since_us, s->imu.t_us) >= t->config.align_s;
 }
 
-static bool align(insole_foot_tracker_t *t, const insole_labelled_t *s,
-                  insole_real_t sigma_tilt_rad, insole_vec3_t *mean_accel)
+INSOLE_COLD static bool align(insole_foot_tracker_t *t, const insole_labelled_t *s,
+                              insole_real_t sigma_tilt_rad, insole_vec3_t *mean_accel)
 {
     if (!stance_is_summed(t, s)) {
         return false;
@@ -120,10 +120,10 @@ static bool align(insole_foot_tracker_t *t, const insole_labelled_t *s,
 }
 
 /* The first attitude: from a rest as good as it gets, from a stance of a walk as told. */
-static void align_first(insole_foot_tracker_t *t, const insole_labelled_t *s)
+INSOLE_COLD static void align_first(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
     bool rest = s->plain && s->imu.t_us - t->still_since_us > 0u && t->still_bias.rests > 0u;
-    insole_real_t tilt = rest ? t->config.zupt_ekf.sigma_tilt_rad : t->config.sigma_moving_tilt_rad;
+    insole_real_t tilt = rest ? t->zupt_ekf.config.sigma_tilt_rad : t->config.sigma_moving_tilt_rad;
     insole_vec3_t mean_accel;
     if (align(t, s, tilt, &mean_accel)) {
         t->counts.aligned_moving = !rest;
@@ -136,7 +136,7 @@ static void align_first(insole_foot_tracker_t *t, const insole_labelled_t *s)
 
 /* Where the errors of position are counted from; without the rest of its row nothing that is
  * learned later speaks of the way before. */
-static void forget_place(insole_foot_tracker_t *t)
+INSOLE_COLD static void forget_place(insole_foot_tracker_t *t)
 {
     insole_zupt_cov_t *P = &t->zupt_ekf.P;
     P->pp = insole_sym3_zero();
@@ -145,7 +145,7 @@ static void forget_place(insole_foot_tracker_t *t)
 }
 
 /* Floors are level: a stance that differs little in height from the last stands as high. */
-static void level_floor(insole_foot_tracker_t *t)
+INSOLE_COLD static void level_floor(insole_foot_tracker_t *t)
 {
     insole_real_t z = t->zupt_ekf.p_m.z;
     if (t->has_floor && insole_abs(z - t->floor_m) < t->config.floor_step_m) {
@@ -269,7 +269,7 @@ static void begin_coast(insole_foot_tracker_t *t)
     (void)insole_foot_walk_cease(&t->walk, t->zupt_ekf.t_us);
 }
 
-static void coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
+INSOLE_COLD static void coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
     insole_vec3_t way;
     insole_real_t per_s = INSOLE_R(1.0) / insole_seconds(t->zupt_ekf.t_us, s->imu.t_us);
@@ -279,7 +279,7 @@ static void coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
 }
 
 /* The foot stands again, turned by what is usual and somewhat more or less. */
-static void end_coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
+INSOLE_COLD static void end_coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
     insole_vec3_t mean_accel;
     if (!align(t, s, t->config.sigma_moving_tilt_rad, &mean_accel)) {
@@ -296,7 +296,7 @@ static void end_coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
 }
 
 /* True when the sample has been used up. */
-static bool cross_gap(insole_foot_tracker_t *t, insole_labelled_t *s)
+INSOLE_COLD static bool cross_gap(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
     insole_real_t gap_s = insole_seconds(t->zupt_ekf.t_us, s->imu.t_us);
     t->gap_turn_rad2 += insole_square(t->config.sigma_gap_turn_rad_rts) * gap_s;

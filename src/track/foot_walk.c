@@ -21,7 +21,7 @@ static const insole_real_t SHORTEST_GAIT_S = INSOLE_R(0.5);
 /* Share of its length by which a stride of the model may be wrong. */
 static const insole_real_t MODEL_ERROR_SHARE = INSOLE_R(0.1);
 
-insole_status_t insole_foot_walk_init(insole_foot_walk_t *walk)
+INSOLE_COLD insole_status_t insole_foot_walk_init(insole_foot_walk_t *walk)
 {
     if (!walk) {
         return INSOLE_ERR_NULL;
@@ -37,8 +37,8 @@ static bool is_finite(const insole_stride_t *stride)
            insole_is_finite(stride->turn_rad);
 }
 
-insole_status_t insole_foot_walk_stride(insole_foot_walk_t *walk, const insole_stride_t *stride,
-                                        uint64_t t_us)
+INSOLE_COLD insole_status_t insole_foot_walk_stride(insole_foot_walk_t *walk,
+                                                    const insole_stride_t *stride, uint64_t t_us)
 {
     if (!walk || !stride) {
         return INSOLE_ERR_NULL;
@@ -58,14 +58,15 @@ insole_status_t insole_foot_walk_stride(insole_foot_walk_t *walk, const insole_s
     walk->heading_rad = stride->heading_rad;
     walk->stride_us = t_us;
     walk->has_stride = true;
-    walk->place_m.x += length_m * insole_cos(stride->heading_rad);
-    walk->place_m.y += length_m * insole_sin(stride->heading_rad);
+    insole_turn_t ahead = insole_turn(stride->heading_rad);
+    walk->place_m.x += length_m * ahead.cos;
+    walk->place_m.y += length_m * ahead.sin;
     walk->place_m.z += stride->displacement_m.z;
     walk->place_m2 += insole_square(MODEL_ERROR_SHARE * length_m);
     return INSOLE_OK;
 }
 
-insole_status_t insole_foot_walk_cease(insole_foot_walk_t *walk, uint64_t t_us)
+INSOLE_COLD insole_status_t insole_foot_walk_cease(insole_foot_walk_t *walk, uint64_t t_us)
 {
     if (!walk) {
         return INSOLE_ERR_NULL;
@@ -78,13 +79,13 @@ insole_status_t insole_foot_walk_cease(insole_foot_walk_t *walk, uint64_t t_us)
     return INSOLE_OK;
 }
 
-insole_real_t insole_foot_walk_bow(const insole_foot_walk_t *walk, insole_real_t time_s)
+INSOLE_COLD insole_real_t insole_foot_walk_bow(const insole_foot_walk_t *walk, insole_real_t time_s)
 {
     return walk ? walk->turn_radps * insole_min(time_s, BOW_S) : ZERO;
 }
 
-insole_status_t insole_foot_walk_on(insole_foot_walk_t *walk, uint64_t from_us, uint64_t to_us,
-                                    insole_vec3_t *way_m)
+INSOLE_COLD insole_status_t insole_foot_walk_on(insole_foot_walk_t *walk, uint64_t from_us,
+                                                uint64_t to_us, insole_vec3_t *way_m)
 {
     if (!walk || !way_m) {
         return INSOLE_ERR_NULL;

@@ -23,7 +23,7 @@ static insole_status_t check_own(const insole_foot_fusion_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_fusion_config_check(const insole_foot_fusion_config_t *config)
+INSOLE_COLD insole_status_t insole_fusion_config_check(const insole_foot_fusion_config_t *config)
 {
     if (!config) {
         return INSOLE_ERR_NULL;
@@ -37,14 +37,14 @@ insole_status_t insole_fusion_config_check(const insole_foot_fusion_config_t *co
     return all ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 
-insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,
-                                           insole_real_t lag_s)
+INSOLE_COLD insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,
+                                                       const insole_foot_fusion_config_t *config)
 {
-    if (!memory) {
+    if (!memory || !config || (config->lag_s > INSOLE_R(0.0) && !memory->past)) {
         return INSOLE_ERR_NULL;
     }
-    bool is_late = lag_s > INSOLE_R(0.0);
-    if (is_late && (!memory->past || !memory->late || memory->late_count == 0u)) {
+    bool is_patient = config->method == INSOLE_FUSION_BEST && config->start_fixes > 1;
+    if (is_patient && !(memory->starter.hear && memory->starter.state)) {
         return INSOLE_ERR_NULL;
     }
     insole_cloud_t cloud = insole_fusion_cloud(memory);

@@ -66,8 +66,8 @@ static void keep_scan(insole_fusion_scan_t *kept, const insole_scan_t *scan,
     kept->waits = kept->count > 0u;
 }
 
-static void solve_scan(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
-                       const insole_fusion_scan_t *scan)
+INSOLE_COLD static void solve_scan(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
+                                   const insole_fusion_scan_t *scan)
 {
     const insole_building_t *b = site->building;
     insole_anchor_fix_t fix;
@@ -77,9 +77,9 @@ static void solve_scan(insole_fusion_radio_t *radio, const insole_fusion_site_t 
     }
 }
 
-insole_status_t insole_fusion_radio_hear(insole_fusion_radio_t *radio,
-                                         const insole_fusion_site_t *site,
-                                         const insole_scan_t *scan)
+INSOLE_COLD insole_status_t insole_fusion_radio_hear(insole_fusion_radio_t *radio,
+                                                     const insole_fusion_site_t *site,
+                                                     const insole_scan_t *scan)
 {
     if (!scan || (!scan->readings && scan->count > 0u)) {
         return INSOLE_ERR_NULL;
@@ -136,9 +136,17 @@ static void keep_range(insole_fusion_radio_t *radio, const insole_range_t *range
     kept->range[kept->count++] = *range;
 }
 
+struct insole_fusion_range_calls {
+    void (*solve)(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
+                  const insole_range_t *ranges, uint32_t count, insole_spot_t n_m);
+    void (*tell)(const insole_range_t *range, const insole_fusion_site_t *site, insole_spot_t since,
+                 insole_evidence_t *evidence);
+};
+
 /* What ranges of one moment say, and what is remembered of those before. */
-static void solve_ranges(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
-                         const insole_range_t *ranges, uint32_t count, insole_spot_t n_m)
+INSOLE_COLD static void solve_ranges(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
+                                     const insole_range_t *ranges, uint32_t count,
+                                     insole_spot_t n_m)
 {
     const insole_building_t *b = site->building;
     uint64_t t_us = ranges[0].t_us;
@@ -152,9 +160,26 @@ static void solve_ranges(insole_fusion_radio_t *radio, const insole_fusion_site_
     }
 }
 
-insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *radio,
-                                          const insole_fusion_site_t *site,
-                                          const insole_range_t *ranges, uint32_t count)
+INSOLE_COLD static void tell_range(const insole_range_t *range, const insole_fusion_site_t *site,
+                                   insole_spot_t since, insole_evidence_t *evidence)
+{
+    const insole_range_fix_config_t *config = site->range_fix;
+    const insole_ap_t *ap = &site->building->aps[range->id];
+    insole_real_t told_m = range->sigma_m > ZERO ? range->sigma_m : ZERO;
+    insole_real_t var_m2 = insole_square(config->sigma_m) + insole_square(told_m);
+    insole_evidence_range_t told = {{ap->x_m, ap->y_m},
+                                    since,
+                                    insole_max(ZERO, range->range_m - config->bias_m),
+                                    insole_sqrt(var_m2),
+                                    RANGE_TAIL_DOF};
+    (void)insole_evidence_range(evidence, &told);
+}
+
+const insole_fusion_range_calls_t insole_fusion_range_calls = {solve_ranges, tell_range};
+
+INSOLE_COLD insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *radio,
+                                                      const insole_fusion_site_t *site,
+                                                      const insole_range_t *ranges, uint32_t count)
 {
     if (!ranges && count > 0u) {
         return INSOLE_ERR_NULL;
@@ -162,6 +187,9 @@ insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *radio,
     insole_status_t status = check(radio, site);
     if (status != INSOLE_OK) {
         return status;
+    }
+    if (!site->ranges) {
+        return INSOLE_ERR_STATE;
     }
     for (uint32_t i = 0u; i < count; i++) {
         bool usable = is_usable(site, &ranges[i]);
@@ -173,7 +201,7 @@ insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *radio,
     }
     if (count > 0u && site->at_once) {
         static const insole_spot_t nowhere = {ZERO, ZERO};
-        solve_ranges(radio, site, ranges, count, nowhere);
+        site->ranges->solve(radio, site, ranges, count, nowhere);
     }
     return INSOLE_OK;
 }
@@ -186,8 +214,8 @@ static bool is_next_moment(const insole_fusion_ranges_t *ranges, uint64_t t_us)
 }
 
 /* The ranges of one moment find their place, and give one. */
-static void place_moment(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
-                         insole_spot_t n_m)
+INSOLE_COLD static void place_moment(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
+                                     insole_spot_t n_m)
 {
     insole_fusion_ranges_t *ranges = &radio->ranges;
     const insole_range_t *first = &ranges->range[ranges->placed];
@@ -196,7 +224,17 @@ static void place_moment(insole_fusion_radio_t *radio, const insole_fusion_site_
         ranges->n_m[ranges->placed + count] = n_m;
     }
     ranges->placed += count;
-    solve_ranges(radio, site, first, count, n_m);
+    site->ranges->solve(radio, site, first, count, n_m);
+}
+
+INSOLE_COLD static void place_scan(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
+                                   insole_spot_t n_m)
+{
+    radio->counts.unused += radio->scan.waits ? 1u : 0u;
+    radio->scan = radio->arrived;
+    radio->scan.n_m = n_m;
+    radio->arrived.waits = false;
+    solve_scan(radio, site, &radio->scan);
 }
 
 insole_status_t insole_fusion_radio_place(insole_fusion_radio_t *radio,
@@ -208,13 +246,9 @@ insole_status_t insole_fusion_radio_place(insole_fusion_radio_t *radio,
         return status == INSOLE_ERR_NULL ? status : INSOLE_ERR_VALUE;
     }
     if (status == INSOLE_OK && radio->arrived.waits && t_us >= radio->arrived.t_us) {
-        radio->counts.unused += radio->scan.waits ? 1u : 0u;
-        radio->scan = radio->arrived;
-        radio->scan.n_m = n_m;
-        radio->arrived.waits = false;
-        solve_scan(radio, site, &radio->scan);
+        place_scan(radio, site, n_m);
     }
-    while (status == INSOLE_OK && is_next_moment(&radio->ranges, t_us)) {
+    while (status == INSOLE_OK && site->ranges && is_next_moment(&radio->ranges, t_us)) {
         place_moment(radio, site, n_m);
     }
     return INSOLE_OK;
@@ -252,24 +286,10 @@ static void tell_nearest(const insole_fusion_scan_t *scan, const insole_fusion_s
     }
 }
 
-static void tell_range(const insole_range_t *range, const insole_fusion_site_t *site,
-                       insole_spot_t since, insole_evidence_t *evidence)
-{
-    const insole_range_fix_config_t *config = site->range_fix;
-    const insole_ap_t *ap = &site->building->aps[range->id];
-    insole_real_t told_m = range->sigma_m > ZERO ? range->sigma_m : ZERO;
-    insole_real_t var_m2 = insole_square(config->sigma_m) + insole_square(told_m);
-    insole_evidence_range_t told = {{ap->x_m, ap->y_m},
-                                    since,
-                                    insole_max(ZERO, range->range_m - config->bias_m),
-                                    insole_sqrt(var_m2),
-                                    RANGE_TAIL_DOF};
-    (void)insole_evidence_range(evidence, &told);
-}
-
-insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radio,
-                                         const insole_fusion_site_t *site, insole_spot_t end_n_m,
-                                         insole_evidence_t *evidence)
+INSOLE_COLD insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radio,
+                                                     const insole_fusion_site_t *site,
+                                                     insole_spot_t end_n_m,
+                                                     insole_evidence_t *evidence)
 {
     if (!radio || !site || !evidence) {
         return INSOLE_ERR_NULL;
@@ -282,14 +302,14 @@ insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radio,
         (void)insole_evidence_scan(evidence, scan->readings, scan->count, way(scan->n_m, end_n_m));
     }
     scan->waits = false;
-    for (uint32_t i = 0u; i < ranges->placed; i++) {
-        tell_range(&ranges->range[i], site, way(ranges->n_m[i], end_n_m), evidence);
+    for (uint32_t i = 0u; site->ranges && i < ranges->placed; i++) {
+        site->ranges->tell(&ranges->range[i], site, way(ranges->n_m[i], end_n_m), evidence);
     }
     drop_ranges(ranges, ranges->placed);
     return INSOLE_OK;
 }
 
-void insole_fusion_radio_forget(insole_fusion_radio_t *radio)
+INSOLE_COLD void insole_fusion_radio_forget(insole_fusion_radio_t *radio)
 {
     if (radio) {
         radio->counts.unused += (radio->scan.waits ? 1u : 0u) + radio->ranges.placed;
@@ -301,7 +321,8 @@ void insole_fusion_radio_forget(insole_fusion_radio_t *radio)
 
 /* ---- radio alone ------------------------------------------------------------------------ */
 
-insole_status_t insole_fusion_radio_fix(const insole_fusion_radio_t *radio, insole_fix_t *fix)
+INSOLE_COLD insole_status_t insole_fusion_radio_fix(const insole_fusion_radio_t *radio,
+                                                    insole_fix_t *fix)
 {
     if (!radio || !fix) {
         return INSOLE_ERR_NULL;
@@ -317,7 +338,8 @@ insole_status_t insole_fusion_radio_fix(const insole_fusion_radio_t *radio, inso
     return INSOLE_OK;
 }
 
-insole_status_t insole_fusion_radio_take(insole_fusion_radio_t *radio, insole_fix_t *fix)
+INSOLE_COLD insole_status_t insole_fusion_radio_take(insole_fusion_radio_t *radio,
+                                                     insole_fix_t *fix)
 {
     if (!radio || !fix) {
         return INSOLE_ERR_NULL;
@@ -334,8 +356,9 @@ insole_status_t insole_fusion_radio_take(insole_fusion_radio_t *radio, insole_fi
     return INSOLE_OK;
 }
 
-insole_status_t insole_fusion_radio_mix(const insole_fusion_radio_t *radio, insole_spot_t n_m,
-                                        insole_turn_t turn, insole_real_t var_m2, insole_fix_t *fix)
+INSOLE_COLD insole_status_t insole_fusion_radio_mix(const insole_fusion_radio_t *radio,
+                                                    insole_spot_t n_m, insole_turn_t turn,
+                                                    insole_real_t var_m2, insole_fix_t *fix)
 {
     if (!radio || !fix) {
         return INSOLE_ERR_NULL;

@@ -13,7 +13,7 @@ static void forget_waiting(insole_fusion_strides_t *strides)
     strides->turn_rad = strides->model_m = ZERO;
 }
 
-void insole_fusion_strides_begin(insole_fusion_strides_t *strides, insole_spot_t n_m)
+INSOLE_COLD void insole_fusion_strides_begin(insole_fusion_strides_t *strides, insole_spot_t n_m)
 {
     if (strides) {
         forget_waiting(strides);
@@ -22,8 +22,8 @@ void insole_fusion_strides_begin(insole_fusion_strides_t *strides, insole_spot_t
     }
 }
 
-insole_status_t insole_fusion_strides_gather(insole_fusion_strides_t *strides,
-                                             const insole_stride_t *stride)
+INSOLE_COLD insole_status_t insole_fusion_strides_gather(insole_fusion_strides_t *strides,
+                                                         const insole_stride_t *stride)
 {
     if (!strides || !stride) {
         return INSOLE_ERR_NULL;
@@ -34,8 +34,9 @@ insole_status_t insole_fusion_strides_gather(insole_fusion_strides_t *strides,
     return INSOLE_OK;
 }
 
-insole_status_t insole_fusion_strides_tell(insole_fusion_strides_t *strides, insole_spot_t end_n_m,
-                                           bool by_model, insole_evidence_t *evidence)
+INSOLE_COLD insole_status_t insole_fusion_strides_tell(insole_fusion_strides_t *strides,
+                                                       insole_spot_t end_n_m, bool by_model,
+                                                       insole_evidence_t *evidence)
 {
     if (!strides || !evidence) {
         return INSOLE_ERR_NULL;
@@ -53,7 +54,7 @@ insole_status_t insole_fusion_strides_tell(insole_fusion_strides_t *strides, ins
     return status;
 }
 
-void insole_fusion_strides_done(insole_fusion_strides_t *strides)
+INSOLE_COLD void insole_fusion_strides_done(insole_fusion_strides_t *strides)
 {
     if (strides) {
         strides->told = 0u;

@@ -294,7 +294,7 @@ INSOLE_COLD static void use_fix(insole_phone_tracker_t *t)
 }
 
 /* After one ahead the filter takes none of before; of one long ago the way since is forgotten. */
-INSOLE_COLD static bool is_in_time(const insole_phone_tracker_t *t, uint64_t t_us)
+static bool is_in_time(const insole_phone_tracker_t *t, uint64_t t_us)
 {
     bool is_ahead = t->has_time && t_us > t->t_us && t_us - t->t_us > SCAN_AHEAD_US;
     return !has_filter(&t->parts) || (!is_ahead && insole_phone_way_reaches(&t->walk.way, t_us));

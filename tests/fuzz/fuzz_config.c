@@ -21,8 +21,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static insole_foot_fusion_t tracker;
     static insole_particle_t particle;
     static insole_spot_t past;
-    static insole_late_row_t late;
-    const insole_fusion_memory_t memory = {&particle, 1u, &past, 1u, &late, 1u};
+    static insole_fusion_start_t start;
+    const insole_fusion_memory_t memory = {
+        &particle, 1u, &past, 1u, &insole_fusion_range_calls, {insole_fusion_start_hear, &start}};
     failure_t failure = {EXIT_DONE, ""};
     settings_init(&settings);
     if (!config_read_file(&settings, fuzz_file(data, size), "config", &failure)) {

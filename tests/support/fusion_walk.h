@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "fixes.h"
-#include "insole/track/foot_fusion.h"
+#include "insole/track/foot_lag.h"
 #include "near.h"
 #include "radio.h"
 #include "walk_samples.h"
@@ -61,6 +61,8 @@ static uint32_t heard_count;
 static insole_particle_t fusion_particles[FUSION_PARTICLES];
 static insole_spot_t fusion_past[FUSION_PARTICLES * FUSION_PAST];
 static insole_late_row_t fusion_late[FUSION_LATE];
+static insole_foot_late_t waiting;
+static insole_fusion_start_t fixes_of_start;
 static insole_foot_fusion_t fusion;
 static insole_fix_t fixes[FUSION_SAMPLES];
 static uint32_t fix_count;
@@ -170,8 +172,12 @@ static inline fusion_case_t usual_case(void)
 
 static inline insole_fusion_memory_t memory_of(const fusion_case_t *c)
 {
-    insole_fusion_memory_t memory = {fusion_particles, c->particles, fusion_past,
-                                     FUSION_PAST,      fusion_late,  c->late};
+    insole_fusion_memory_t memory = {fusion_particles,
+                                     c->particles,
+                                     fusion_past,
+                                     FUSION_PAST,
+                                     &insole_fusion_range_calls,
+                                     {insole_fusion_start_hear, &fixes_of_start}};
     return memory;
 }
 
@@ -180,6 +186,8 @@ static inline void set_up(const fusion_case_t *c)
     insole_fusion_memory_t memory = memory_of(c);
     fix_count = 0u;
     memset(fusion_past, 0, sizeof fusion_past);
+    ck_assert_int_eq(insole_fusion_start_init(&fixes_of_start, c->config.start_fixes), INSOLE_OK);
+    ck_assert_int_eq(insole_foot_late_init(&waiting, fusion_late, c->late), INSOLE_OK);
     ck_assert_int_eq(insole_foot_fusion_init(&fusion, &c->config, &memory, c->building, c->seed),
                      INSOLE_OK);
     if (c->has_start) {
@@ -189,7 +197,7 @@ static inline void set_up(const fusion_case_t *c)
 
 static inline void take_fixes(insole_foot_fusion_t *f)
 {
-    while (insole_foot_fusion_next(f, &fixes[fix_count]) == INSOLE_OK) {
+    while (insole_foot_lag_next(&waiting, f, &fixes[fix_count]) == INSOLE_OK) {
         ck_assert_uint_lt(++fix_count, FUSION_SAMPLES);
     }
 }

@@ -407,28 +407,6 @@ START_TEST(later_it_is_known_better)
 }
 END_TEST
 
-/* So late, and no later. */
-START_TEST(a_late_fix_is_as_late_as_told)
-{
-    walk_round(1u);
-    fusion_case_t c = usual_case();
-    c.config.lag_s = 3;
-    set_up(&c);
-    run(&c, &fusion, 0u, 2000u);
-    ck_assert_uint_gt(fix_count, 100);
-    uint64_t newest = samples[1999].t_us, last = fixes[fix_count - 1u].t_us;
-    ASSERT_AT_LEAST((double)(newest - last), 3.0e6, "us");
-    ASSERT_AT_MOST((double)(newest - last), 3.6e6, "us"); /* and what the first order waits */
-    c.late = 100; /* less room than the lag: as late as there is room */
-    set_up(&c);
-    run(&c, &fusion, 0u, 2000u);
-    last = fixes[fix_count - 1u].t_us;
-    ASSERT_AT_MOST((double)(newest - last), 1.6e6, "us");
-    finish(&c, &fusion);
-    ck_assert_uint_eq(fix_count, 2000);
-}
-END_TEST
-
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("foot_fusion");
@@ -447,6 +425,5 @@ Suite *insole_suite(void)
     suite_add(suite, "radio alone", radio_alone_answers_at_once);
     suite_add(suite, "two orders", two_orders_as_printed);
     suite_add_loop(suite, "later", later_it_is_known_better, 2);
-    suite_add(suite, "how late", a_late_fix_is_as_late_as_told);
     return suite;
 }

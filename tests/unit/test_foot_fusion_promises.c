@@ -149,14 +149,17 @@ START_TEST(a_copy_goes_on_bit_for_bit)
     memcpy(particles, fusion_particles, sizeof particles);
     memcpy(past, fusion_past, sizeof past);
     memcpy(late, fusion_late, sizeof late);
+    insole_foot_late_t still_waiting = waiting;
     memset(&fusion, 0xa5, sizeof fusion);
     memset(fusion_particles, 0xa5, sizeof fusion_particles);
     memset(fusion_past, 0xa5, sizeof fusion_past);
     memset(fusion_late, 0xa5, sizeof fusion_late);
+    memset(&waiting, 0xa5, sizeof waiting);
     ck_assert_int_eq(insole_snapshot_load(9, &other, sizeof other, saved, used), INSOLE_OK);
     other.memory.particles = particles;
     other.memory.past = past;
-    other.memory.late = other.late.rows = late;
+    waiting = still_waiting;
+    waiting.rows = late;
     run(&c, &other, cut, sample_count);
     finish(&c, &other);
     ck_assert_uint_eq(fix_count, count);
@@ -233,27 +236,6 @@ START_TEST(no_turn_is_lost_while_busy)
 }
 END_TEST
 
-/* At the end no late fix leaves before all that is known has been worked in. */
-START_TEST(the_last_fixes_wait_for_the_work)
-{
-    insole_fix_t fix;
-    walk_round(1u);
-    fusion_case_t c = usual_case();
-    c.config.lag_s = 4;
-    set_up(&c);
-    run(&c, &fusion, 0u, 3000u);
-    c.slice = 0;
-    run(&c, &fusion, 3000u, 3300u); /* a stride comes, and nobody works it in */
-    ck_assert(fusion.working);
-    uint32_t count = fix_count;
-    ck_assert_int_eq(insole_foot_fusion_finish(&fusion), INSOLE_OK);
-    ck_assert_int_eq(insole_foot_fusion_next(&fusion, &fix), INSOLE_ERR_STATE);
-    c.slice = WHOLE;
-    finish(&c, &fusion);
-    ck_assert_uint_ge(fix_count, count + 400u);
-}
-END_TEST
-
 START_TEST(finish_gives_one_fix_per_sample_and_only_once)
 {
     insole_fix_t fix;
@@ -265,7 +247,7 @@ START_TEST(finish_gives_one_fix_per_sample_and_only_once)
     check_sane();
     before = fusion;
     ck_assert_int_eq(insole_foot_fusion_finish(&fusion), INSOLE_OK);
-    ck_assert_int_eq(insole_foot_fusion_next(&fusion, &fix), INSOLE_ERR_STATE);
+    ck_assert_int_eq(insole_foot_lag_next(&waiting, &fusion, &fix), INSOLE_ERR_STATE);
     ck_assert(!insole_foot_fusion_work(&fusion, WHOLE));
     ck_assert_mem_eq(&fusion, &before, sizeof fusion);
     ck_assert_int_eq(insole_foot_fusion_imu(&fusion, &samples[0]), INSOLE_ERR_STATE);
@@ -280,10 +262,10 @@ START_TEST(nothing_in_nothing_out)
     c.config.method = _i % 3;
     c.config.lag_s = _i < 3 ? 0 : 2;
     set_up(&c);
-    ck_assert_int_eq(insole_foot_fusion_next(&fusion, &fix), INSOLE_ERR_STATE);
+    ck_assert_int_eq(insole_foot_lag_next(&waiting, &fusion, &fix), INSOLE_ERR_STATE);
     ck_assert(!insole_foot_fusion_work(&fusion, WHOLE));
     ck_assert_int_eq(insole_foot_fusion_finish(&fusion), INSOLE_OK);
-    ck_assert_int_eq(insole_foot_fusion_next(&fusion, &fix), INSOLE_ERR_STATE);
+    ck_assert_int_eq(insole_foot_lag_next(&waiting, &fusion, &fix), INSOLE_ERR_STATE);
 }
 END_TEST
 
@@ -367,15 +349,20 @@ START_TEST(bad_memory_changes_nothing)
     memory = good;
     memory.past = NULL; /* and there is a lag */
     ASSERT_UNCHANGED(fusion, judge(), INSOLE_ERR_NULL);
+    config.lag_s = 0; /* without one it is not wanted */
+    ck_assert_int_eq(judge(), INSOLE_OK);
     memory = good;
-    memory.late = NULL;
+    config.start_fixes = 2;
+    ck_assert_int_eq(judge(), INSOLE_OK);
+    memory.starter.hear = NULL;
     ASSERT_UNCHANGED(fusion, judge(), INSOLE_ERR_NULL);
     memory = good;
-    memory.late_count = 0;
+    memory.starter.state = NULL;
     ASSERT_UNCHANGED(fusion, judge(), INSOLE_ERR_NULL);
-    config.lag_s = 0; /* without one they are not wanted */
-    memory.past = NULL;
-    memory.late = NULL;
+    config.method = INSOLE_FUSION_TWO_ORDER; /* it takes the first, whatever is set */
+    ck_assert_int_eq(judge(), INSOLE_OK);
+    config.method = INSOLE_FUSION_BEST;
+    config.start_fixes = 1;
     ck_assert_int_eq(judge(), INSOLE_OK);
 }
 END_TEST
@@ -395,6 +382,11 @@ START_TEST(bad_calls_change_nothing_but_their_counter)
     ASSERT_REFUSED(fusion, *foot, insole_foot_fusion_start(&fusion, NULL), INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(fusion, insole_foot_fusion_imu(&fusion, NULL), INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(fusion, insole_foot_fusion_next(&fusion, NULL), INSOLE_ERR_NULL);
+    const insole_fusion_range_calls_t *calls = fusion.memory.ranges;
+    fusion.memory.ranges = NULL;
+    ASSERT_REFUSED(fusion, *refused, insole_foot_fusion_ranges(&fusion, heard[0].ranges, 2),
+                   INSOLE_ERR_STATE);
+    fusion.memory.ranges = calls;
     fusion.building = NULL;
     ASSERT_REFUSED(fusion, *refused, insole_foot_fusion_scan(&fusion, &scan), INSOLE_ERR_STATE);
     ASSERT_REFUSED(fusion, *refused, insole_foot_fusion_ranges(&fusion, heard[0].ranges, 2),
@@ -497,7 +489,7 @@ START_TEST(garbage_never_makes_a_fix_that_is_no_number)
         if (i % 20u == 0u) {
             come_what_may(imu.t_us);
         }
-        while (insole_foot_fusion_next(&fusion, &fixes[0]) == INSOLE_OK) {
+        while (insole_foot_lag_next(&waiting, &fusion, &fixes[0]) == INSOLE_OK) {
             ck_assert(is_sane_fix(&fixes[0]));
             ck_assert(c.config.method == INSOLE_FUSION_WIFI || fixes[0].t_us > last_us);
             last_us = fixes[0].t_us;
@@ -519,7 +511,6 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "starved", starved_it_never_blocks, sizeof slow / sizeof slow[0]);
     suite_add(suite, "spread work", work_may_be_spread_over_the_stride);
     suite_add(suite, "turns", no_turn_is_lost_while_busy);
-    suite_add(suite, "last", the_last_fixes_wait_for_the_work);
     suite_add_loop(suite, "finish", finish_gives_one_fix_per_sample_and_only_once, 2);
     suite_add_loop(suite, "nothing", nothing_in_nothing_out, 6);
     suite_add(suite, "align", before_the_foot_is_aligned);

@@ -64,25 +64,28 @@ START_TEST(memory_must_be_there)
 {
     static insole_particle_t particles[3];
     static insole_spot_t past[6];
-    static insole_late_row_t late[4];
-    insole_fusion_memory_t memory = {particles, 3, past, 2, late, 4};
-    const insole_real_t lag_s = 2;
-    ck_assert_int_eq(insole_fusion_memory_check(NULL, 0), INSOLE_ERR_NULL);
-    ck_assert_int_eq(insole_fusion_memory_check(&memory, lag_s), INSOLE_OK);
+    static insole_fusion_start_t start;
+    insole_foot_fusion_config_t at_once = insole_foot_fusion_defaults, late = at_once;
+    late.lag_s = 2;
+    insole_fusion_memory_t memory = {particles, 3, past, 2, NULL, {NULL, NULL}};
+    ck_assert_int_eq(insole_fusion_memory_check(NULL, &at_once), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, &late), INSOLE_OK);
     insole_cloud_t cloud = insole_fusion_cloud(&memory);
     ck_assert(cloud.particles == particles && cloud.count == 3);
     ck_assert(cloud.past == past && cloud.past_strides == 2);
-    memory.late_count = 0;
-    ck_assert_int_eq(insole_fusion_memory_check(&memory, lag_s), INSOLE_ERR_NULL);
-    memory.late = NULL;
-    ck_assert_int_eq(insole_fusion_memory_check(&memory, lag_s), INSOLE_ERR_NULL);
     memory.past = NULL; /* whatever its strides */
     ck_assert_uint_eq(insole_fusion_cloud(&memory).past_strides, 0);
-    ck_assert_int_eq(insole_fusion_memory_check(&memory, 0), INSOLE_OK);
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, &late), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, &at_once), INSOLE_OK);
+    at_once.start_fixes = 3;
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, &at_once), INSOLE_ERR_NULL);
+    memory.starter = (insole_fusion_starter_t){insole_fusion_start_hear, &start};
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, &at_once), INSOLE_OK);
     memory.count = 0;
-    ck_assert_int_eq(insole_fusion_memory_check(&memory, 0), INSOLE_ERR_VALUE);
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, &at_once), INSOLE_ERR_VALUE);
     memory.particles = NULL;
-    ck_assert_int_eq(insole_fusion_memory_check(&memory, 0), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, &at_once), INSOLE_ERR_NULL);
 }
 END_TEST
 

@@ -27,7 +27,8 @@ static void begin(uint32_t aps)
     radio_scatter(&world, &rng, aps, 0.0, 0.0);
     rss_fix = insole_rss_fix_defaults;
     range_fix = insole_range_fix_defaults;
-    insole_fusion_site_t s = {&world.building, &rss_fix, &range_fix, false, false, 2};
+    insole_fusion_site_t s = {&world.building, &rss_fix, &range_fix, &insole_fusion_range_calls,
+                              false,           false,    2};
     site = s;
     radio = blank;
     insole_evidence_clear(&news);
@@ -524,6 +525,25 @@ START_TEST(without_access_points_there_is_no_radio)
 }
 END_TEST
 
+/* A site that names no calls for ranges refuses them; scans are heard as ever. */
+START_TEST(ranges_need_their_calls)
+{
+    begin(APS);
+    range(SECOND, 20.0, 15.0, 3);
+    insole_fusion_site_t deaf = site;
+    deaf.ranges = NULL;
+    ASSERT_UNCHANGED(radio, insole_fusion_radio_range(&radio, &deaf, ranges, 3), INSOLE_ERR_STATE);
+    begin(APS);
+    site.ranges = NULL;
+    hear(SECOND, 20.0, 15.0);
+    place(SECOND, 1.0, 1.0);
+    tell(2.0, 1.0);
+    ck_assert(radio.has_fix);
+    ck_assert_uint_eq(news.ranges, 0);
+    ck_assert_uint_gt(news.reading_count, 0);
+}
+END_TEST
+
 START_TEST(bad_input_changes_nothing)
 {
     insole_fix_t fix;
@@ -653,6 +673,11 @@ START_TEST(a_copy_goes_on_alike)
     radio = before;
     place(2 * SECOND, 2.0, 1.0);
     tell(3.0, 1.0);
+    ck_assert(radio.fix.used == first.fix.used);
+    ASSERT_NEAR(radio.fix.x_m, first.fix.x_m, 0.0, "m");
+    ASSERT_NEAR(radio.fix.y_m, first.fix.y_m, 0.0, "m");
+    ASSERT_NEAR(radio.fix.P.xx, first.fix.P.xx, 0.0, "m^2");
+    memcpy(&radio.fix, &first.fix, sizeof radio.fix); /* what pads it is anything */
     ck_assert_mem_eq(&radio, &first, sizeof radio);
     ck_assert_mem_eq(news.range, other.range, sizeof news.range);
     ck_assert_ptr_eq(news.readings, radio.scan.readings);
@@ -720,6 +745,7 @@ Suite *insole_suite(void)
     suite_add(suite, "fix", the_place_goes_into_a_fix);
     suite_add(suite, "mix", two_places_are_mixed_by_their_weights);
     suite_add(suite, "no radio", without_access_points_there_is_no_radio);
+    suite_add(suite, "no calls for ranges", ranges_need_their_calls);
     suite_add(suite, "bad input", bad_input_changes_nothing);
     suite_add(suite, "in vain", no_fix_is_touched_in_vain);
     suite_add_loop(suite, "whatever comes", whatever_comes_it_keeps_its_order, 3);

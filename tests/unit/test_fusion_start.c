@@ -4,11 +4,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "insole/base/rng.h"
 #include "near.h"
 #include "refusal.h"
 #include "suite.h"
 
-#define PI 3.14159265358979323846
+#define PI   3.14159265358979323846
+#define ZERO INSOLE_R(0.0)
 
 static insole_fusion_start_t start;
 static insole_fusion_radio_t radio;
@@ -52,6 +54,40 @@ START_TEST(the_first_fix_is_a_start_in_any_direction)
     ASSERT_AT_LEAST(where.sigma_m, sqrt(3.0), "m"); /* with what fixes share, and no less */
     ASSERT_AT_MOST(where.sigma_m, 2.5, "m");
     ck_assert_int_eq(insole_particle_start_check(&where), INSOLE_OK);
+}
+END_TEST
+
+/* Whoever takes the first fix takes what the method of several makes of one, to the bit. */
+START_TEST(the_first_fix_needs_no_method)
+{
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 5u);
+    for (int i = 0; i < 2000; i++) {
+        begin(1);
+        place(1.0 + i, 5.0, -2.0, 0.01 * i);
+        insole_real_t sigma_m =
+            insole_exp(INSOLE_R(12.0) * insole_rng_uniform(&rng) - INSOLE_R(6.0));
+        insole_real_t share = INSOLE_R(0.9) * insole_rng_uniform(&rng);
+        radio.fix.P = (insole_sym3_t){.xx = sigma_m, .xy = share * sigma_m, .yy = sigma_m};
+        insole_particle_start_t first = {.x_m = ZERO};
+        ck_assert(insole_fusion_start_first(&radio, &first));
+        ck_assert(hear());
+        ck_assert_mem_eq(&first, &where, sizeof first);
+    }
+}
+END_TEST
+
+START_TEST(no_fix_is_no_start)
+{
+    begin(1);
+    const insole_particle_start_t before = where;
+    ck_assert(!insole_fusion_start_first(&radio, &where));
+    ck_assert(!insole_fusion_start_first(NULL, &where));
+    place(1.0, 0.0, 0.0, 0.0);
+    ck_assert(!insole_fusion_start_first(&radio, NULL));
+    radio.fix.y_m = (insole_real_t)INFINITY;
+    ck_assert(!insole_fusion_start_first(&radio, &where));
+    ck_assert_mem_eq(&where, &before, sizeof where);
 }
 END_TEST
 
@@ -132,6 +168,8 @@ Suite *insole_suite(void)
 {
     Suite *suite = suite_create("fusion_start");
     suite_add(suite, "first", the_first_fix_is_a_start_in_any_direction);
+    suite_add(suite, "first alone", the_first_fix_needs_no_method);
+    suite_add(suite, "none", no_fix_is_no_start);
     suite_add_loop(suite, "direction", more_fixes_tell_a_direction, 4);
     suite_add(suite, "stands", a_foot_that_stands_has_none);
     suite_add(suite, "once", a_fix_counts_once);

@@ -20,7 +20,8 @@ const uint8_t tracker_name = WIRE_FOOT;
 
 bool tracker_begin(uint32_t seed)
 {
-    const insole_fusion_memory_t memory = {shoe.particles, PARTICLES, NULL, 0u, NULL, 0u};
+    const insole_fusion_memory_t memory = {
+        .particles = shoe.particles, .count = PARTICLES, .ranges = &insole_fusion_range_calls};
     const insole_building_t building = {&insole_propagation_defaults, site_aps, site_ap_count,
                                         &site_plan, &insole_foot_fusion_defaults.rss_fix};
     shoe.building = building;

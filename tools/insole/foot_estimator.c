@@ -19,17 +19,29 @@ static const uint32_t whole_work = UINT32_MAX;
 
 /* ---- init ------------------------------------------------------------------------------- */
 
-static void lend_memory(foot_estimator_t *estimator, insole_real_t lag_s)
+static void lend_rows(foot_estimator_t *estimator, insole_real_t lag_s)
+{
+    insole_late_row_t *rows = NULL;
+    uint32_t count = 0u;
+    if (lag_s > INSOLE_R(0.0)) {
+        count = (1u + (uint32_t)ceil((double)lag_s)) * LAG_FIXES;
+        rows = memory_new(count, sizeof *rows);
+    }
+    (void)insole_foot_late_init(&estimator->late, rows, count);
+}
+
+static void lend_memory(foot_estimator_t *estimator, insole_real_t lag_s, int32_t start_fixes)
 {
     insole_fusion_memory_t *memory = &estimator->memory;
     memory->count = estimator->setup.particles;
     memory->particles = memory_new(memory->count, sizeof *memory->particles);
+    memory->ranges = &insole_fusion_range_calls;
+    (void)insole_fusion_start_init(&estimator->start, start_fixes);
+    memory->starter = (insole_fusion_starter_t){insole_fusion_start_hear, &estimator->start};
     if (lag_s > INSOLE_R(0.0)) {
         memory->past_strides = 2u + (uint32_t)ceil((double)lag_s) * LAG_STRIDES;
         memory->past =
             memory_new((size_t)memory->count * memory->past_strides, sizeof *memory->past);
-        memory->late_count = (1u + (uint32_t)ceil((double)lag_s)) * LAG_FIXES;
-        memory->late = memory_new(memory->late_count, sizeof *memory->late);
     }
 }
 
@@ -80,7 +92,8 @@ bool foot_estimator_init(foot_estimator_t *estimator, const estimator_setup_t *s
         }
         return insole_foot_tracker_init(&estimator->fusion.foot, &config.foot) == INSOLE_OK;
     }
-    lend_memory(estimator, config.lag_s);
+    lend_memory(estimator, config.lag_s, config.start_fixes);
+    lend_rows(estimator, config.lag_s);
     return insole_propagation_check(&setup->settings->propagation) == INSOLE_OK &&
            insole_foot_fusion_init(&estimator->fusion, &config, &estimator->memory,
                                    &estimator->building, setup->seed) == INSOLE_OK;
@@ -91,7 +104,7 @@ void foot_estimator_free(foot_estimator_t *estimator)
     radio_group_free(&estimator->radio);
     free(estimator->memory.particles);
     free(estimator->memory.past);
-    free(estimator->memory.late);
+    free(estimator->late.rows);
     free(estimator->nodes);
     free(estimator->fixes);
 }
@@ -220,7 +233,7 @@ static bool step_first_order(foot_estimator_t *estimator)
 /* Time of the newest fix of the first order: with a lag the one that leaves is older. */
 static int64_t newest_us(const foot_estimator_t *estimator)
 {
-    const insole_foot_late_t *late = &estimator->fusion.late;
+    const insole_foot_late_t *late = &estimator->late;
     bool lags = late->count > 0u;
     return to_log_us(lags ? late->rows[(late->first + late->count - 1u) % late->room].fix.t_us
                           : estimator->fix.t_us);
@@ -230,7 +243,8 @@ static bool step_fused(foot_estimator_t *estimator)
 {
     insole_foot_fusion_t *fusion = &estimator->fusion;
     uint32_t fixes = fusion->foot.counts.fixes, starts = fusion->counts.starts;
-    estimator->has_fix = insole_foot_fusion_next(fusion, &estimator->fix) == INSOLE_OK;
+    estimator->has_fix =
+        insole_foot_lag_next(&estimator->late, fusion, &estimator->fix) == INSOLE_OK;
     bool has_work = fusion->working;
     foot_news_t news = foot_events_news(fusion, starts);
     estimator->counts.worked_in += news.has_scan || news.has_ranges ? 1u : 0u;

@@ -34,10 +34,10 @@ typedef float insole_real_t;
 #define INSOLE_FLAT
 #endif
 
-/** Before a function that runs once per step, per scan, or at the start: it is made small rather
- *  than fast. */
+/** Before a function that runs seldom, once a stride or less: it and what only it calls are to be
+ *  small rather than fast. */
 #ifdef __GNUC__
-#define INSOLE_COLD __attribute__((cold))
+#define INSOLE_COLD __attribute__((cold, noinline))
 #else
 #define INSOLE_COLD
 #endif

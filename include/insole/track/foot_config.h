@@ -53,6 +53,11 @@ typedef struct {
     insole_stride_config_t stride;
 } insole_foot_tracker_config_t;
 
+/** The tracker's own, which it keeps; its parts keep theirs. */
+typedef struct {
+    INSOLE_FOOT_TRACKER_KEYS(INSOLE_CONFIG_MEMBER)
+} insole_foot_tracker_own_t;
+
 extern const insole_foot_tracker_config_t insole_foot_tracker_defaults;
 
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */

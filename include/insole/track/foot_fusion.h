@@ -8,12 +8,15 @@
  *
  *      static insole_particle_t particles[500];
  *      static insole_foot_fusion_t shoe;
- *      insole_fusion_memory_t memory = {particles, 500, NULL, 0, NULL, 0};
+ *      insole_fusion_memory_t memory = {.particles = particles, .count = 500};
  *      insole_foot_fusion_init(&shoe, &insole_foot_fusion_defaults, &memory, &building, seed);
  *      on each sample:   insole_foot_fusion_imu(&shoe, &imu);
  *                        while (insole_foot_fusion_next(&shoe, &fix) == INSOLE_OK) use(&fix);
  *      on each scan:     insole_foot_fusion_scan(&shoe, &scan);
  *      in idle time:     while (insole_foot_fusion_work(&shoe, 50)) {}
+ *
+ *  What a method may do without is lent to it (fusion_config.h) or called by name (foot_lag.h): a
+ *  program that does neither links none of it.
  *
  *  Between strides the position moves on with the inertial filter. The memory and the building are
  *  the caller's and must stay where they are. Without plan and access points `best` is the first
@@ -22,14 +25,14 @@
  *  Radio may be told as soon as it comes: it waits until the inertial filter, whose detector looks
  *  ahead, has come to its time. `wifi` knows of radio alone: a fix for each scan, at once.
  *
- *  With `lag_s` each fix leaves so much later, at where the ancestors of the cloud of then were.
+ *  With `lag_s` and foot_lag.h each fix leaves so much later, at where the ancestors of the cloud
+ * of then were.
  *
  *  SPDX-License-Identifier: MIT
  */
 #ifndef INSOLE_TRACK_FOOT_FUSION_H
 #define INSOLE_TRACK_FOOT_FUSION_H
 
-#include "insole/track/foot_late.h"
 #include "insole/track/foot_tracker.h"
 #include "insole/track/fusion_config.h"
 #include "insole/track/fusion_gap.h"
@@ -47,7 +50,7 @@ typedef struct {
 } insole_foot_fusion_counts_t;
 
 typedef struct {
-    insole_foot_fusion_config_t config;
+    insole_foot_fusion_own_t config;
     insole_foot_fusion_counts_t counts;
     insole_foot_tracker_t foot;
     insole_particle_filter_t particles;
@@ -55,7 +58,6 @@ typedef struct {
     const insole_building_t *building;
 
     insole_fusion_radio_t radio;
-    insole_fusion_start_t start; /**< for one that nobody tells */
     insole_fusion_gap_t gap;
 
     insole_evidence_t news; /**< what the particles are told */
@@ -64,8 +66,6 @@ typedef struct {
     uint32_t doubt;         /**< strides that the cloud has yet to be good for after a gap */
     bool working;           /**< the particles have work left */
     insole_fusion_strides_t strides;
-
-    insole_foot_late_t late;
     bool finished;
 } insole_foot_fusion_t;
 
@@ -88,7 +88,7 @@ insole_status_t insole_foot_fusion_imu(insole_foot_fusion_t *fusion, const insol
 insole_status_t insole_foot_fusion_scan(insole_foot_fusion_t *fusion, const insole_scan_t *scan);
 
 /** Ranges of one moment.
- *  @return as insole_foot_fusion_scan */
+ *  @return as insole_foot_fusion_scan; INSOLE_ERR_STATE also without `ranges` in the memory lent */
 insole_status_t insole_foot_fusion_ranges(insole_foot_fusion_t *fusion,
                                           const insole_range_t *ranges, uint32_t count);
 

@@ -40,7 +40,7 @@ typedef struct {
 } insole_foot_counts_t;
 
 typedef struct {
-    insole_foot_tracker_config_t config;
+    insole_foot_tracker_own_t config;
     insole_foot_counts_t counts;
     insole_screen_t screen;
     insole_still_bias_t still_bias;

@@ -13,7 +13,7 @@
 #include "insole/place/range_fix.h"
 #include "insole/place/rss_fix.h"
 #include "insole/track/foot_config.h"
-#include "insole/track/foot_late.h"
+#include "insole/track/fusion_start.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -53,25 +53,33 @@ typedef struct {
     insole_range_fix_config_t range_fix;
 } insole_foot_fusion_config_t;
 
+/** The fusion's own, which it keeps, and those of radio alone; its parts keep theirs. */
+typedef struct {
+    INSOLE_FOOT_FUSION_KEYS(INSOLE_CONFIG_MEMBER)
+    insole_rss_fix_config_t rss_fix;
+    insole_range_fix_config_t range_fix;
+} insole_foot_fusion_own_t;
+
 extern const insole_foot_fusion_config_t insole_foot_fusion_defaults;
 
-/** What the caller lends. */
+/** What the caller lends. What is not lent is not linked either. */
 typedef struct {
     insole_particle_t *particles;
     uint32_t count;
-    insole_spot_t *past;     /**< count x past_strides, for `lag_s`; NULL: no lag */
-    uint32_t past_strides;   /**< as many as a walker makes in `lag_s`, and two more */
-    insole_late_row_t *late; /**< as many as samples come in `lag_s`; NULL: no lag */
-    uint32_t late_count;
+    insole_spot_t *past;   /**< count x past_strides, for `lag_s`; NULL: no lag */
+    uint32_t past_strides; /**< as many as a walker makes in `lag_s`, and two more */
+    const insole_fusion_range_calls_t
+        *ranges;                     /**< &insole_fusion_range_calls; NULL: none are told */
+    insole_fusion_starter_t starter; /**< for `start_fixes` beyond 1 */
 } insole_fusion_memory_t;
 
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
 insole_status_t insole_fusion_config_check(const insole_foot_fusion_config_t *config);
 
-/** @return INSOLE_ERR_NULL for what is not there and wanted, with such a lag; INSOLE_ERR_VALUE for
- *          no particles or too many */
+/** @return INSOLE_ERR_NULL for what is not there and wanted, with such settings; INSOLE_ERR_VALUE
+ *          for no particles or too many */
 insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,
-                                           insole_real_t lag_s);
+                                           const insole_foot_fusion_config_t *config);
 
 static inline insole_cloud_t insole_fusion_cloud(const insole_fusion_memory_t *memory)
 {

@@ -32,11 +32,17 @@ enum {
     INSOLE_FUSION_RANGES = INSOLE_EVIDENCE_RANGES /**< ranges that can wait */
 };
 
+typedef struct insole_fusion_range_calls insole_fusion_range_calls_t;
+
+/** What is made of ranges. A site that does not name it links nothing of it. */
+extern const insole_fusion_range_calls_t insole_fusion_range_calls;
+
 /** What is known of the site; all are the caller's and stay where they are. */
 typedef struct {
     const insole_building_t *building;          /**< NULL: nothing */
     const insole_rss_fix_config_t *rss_fix;     /**< settings that have passed their check */
     const insole_range_fix_config_t *range_fix; /**< the same */
+    const insole_fusion_range_calls_t *ranges;  /**< NULL: none can be told */
     bool at_once;                /**< nobody waits for the foot: radio alone is wanted */
     bool nearest_only;           /**< a scan tells of its strongest access point, (37)-(39) */
     insole_real_t sigma_range_m; /**< then, sigma_2 of (39) */
@@ -89,7 +95,8 @@ insole_status_t insole_fusion_radio_hear(insole_fusion_radio_t *radio,
                                          const insole_scan_t *scan);
 
 /** Ranges of one moment. When there is no more room the oldest leave.
- *  @return as insole_fusion_radio_hear */
+ *  @return as insole_fusion_radio_hear; INSOLE_ERR_STATE also where the site has no calls for them
+ */
 insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *radio,
                                           const insole_fusion_site_t *site,
                                           const insole_range_t *ranges, uint32_t count);

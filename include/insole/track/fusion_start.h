@@ -1,5 +1,5 @@
-/** @file fusion_start.h  Where the shoe's cloud begins when nobody tells: by radio, through
- *  auto_start.h.
+/** @file fusion_start.h  Where the shoe's cloud begins when nobody tells: by radio, at its first
+ * fix or, through auto_start.h, by several.
  *
  *  Frames  n: level, as the inertial filter left it.  m: map.
  *
@@ -8,10 +8,13 @@
  *  known the better, and the search begins the later. On real walks in buildings the search at once
  *  is the better one.
  *
- *      insole_fusion_start_init(&start, 1);
+ *      insole_fusion_start_init(&start, 5);
+ *      insole_fusion_starter_t starter = {insole_fusion_start_hear, &start};
  *      on each sample, until a cloud is drawn:
- *          if (insole_fusion_start_hear(&start, &radio, &where))
+ *          if (starter.hear(starter.state, &radio, &where))
  *              insole_particle_filter_start(&filter, &cloud, &where);
+ *
+ *  A fusion that holds no such pair takes the first fix and links nothing of the others.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -32,6 +35,22 @@ typedef struct {
     insole_auto_start_t fixes;
     insole_spot_t n_m; /**< where the foot was at the newest */
 } insole_fusion_start_t;
+
+/** Looks at the fix of radio. @return whether there is a start, as insole_fusion_start_hear */
+typedef bool insole_fusion_start_hear_t(insole_fusion_start_t *start,
+                                        const insole_fusion_radio_t *radio,
+                                        insole_particle_start_t *where);
+
+typedef struct {
+    insole_fusion_start_hear_t *hear; /**< NULL: the first fix is the start */
+    insole_fusion_start_t *state;     /**< stays where it is */
+} insole_fusion_starter_t;
+
+/** The first fix as a start in any direction, to the bit what insole_fusion_start_hear() makes of
+ * it when one is enough.
+ *  @param[out] where  untouched unless there is a fix
+ *  @return whether there is one */
+bool insole_fusion_start_first(const insole_fusion_radio_t *radio, insole_particle_start_t *where);
 
 /** @param fixes  of radio that a start takes, 1 .. INSOLE_FUSION_START_MOST
  *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE */

@@ -12,7 +12,7 @@ static insole_particle_t particles[500];
 
 int main(void)
 {
-    static const insole_fusion_memory_t memory = {particles, 500, NULL, 0, NULL, 0};
+    static const insole_fusion_memory_t memory = {.particles = particles, .count = 500};
     insole_fix_t fix;
     (void)insole_foot_fusion_init(&shoe, &insole_foot_fusion_defaults, &memory, &building, 1u);
     for (;;) {
