@@ -28,9 +28,9 @@ insole_status_t insole_auto_start_check(const insole_auto_start_config_t *config
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-INSOLE_COLD insole_status_t insole_auto_start_init(insole_auto_start_t *start,
-                                                   const insole_auto_start_config_t *config,
-                                                   const insole_circle_start_calls_t *circles)
+insole_status_t insole_auto_start_init(insole_auto_start_t *start,
+                                       const insole_auto_start_config_t *config,
+                                       const insole_circle_start_calls_t *circles)
 {
     if (!start || !config) {
         return INSOLE_ERR_NULL;

@@ -28,12 +28,11 @@ insole_status_t insole_phone_place_check(const insole_phone_place_config_t *conf
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-INSOLE_COLD insole_status_t insole_phone_place_init(insole_phone_place_t *place,
-                                                    const insole_phone_place_config_t *config,
-                                                    const insole_auto_start_config_t *config_start,
-                                                    const insole_circle_start_calls_t *circles,
-                                                    const insole_step_filter_t *filter,
-                                                    bool has_radio)
+insole_status_t insole_phone_place_init(insole_phone_place_t *place,
+                                        const insole_phone_place_config_t *config,
+                                        const insole_auto_start_config_t *config_start,
+                                        const insole_circle_start_calls_t *circles,
+                                        const insole_step_filter_t *filter, bool has_radio)
 {
     if (!place || !config || !config_start || !filter) {
         return INSOLE_ERR_NULL;

@@ -282,7 +282,7 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
 
 /* ---- radio ------------------------------------------------------------------------------ */
 
-INSOLE_COLD static void use_fix(insole_phone_tracker_t *t)
+static void use_fix(insole_phone_tracker_t *t)
 {
     const insole_radio_fix_t *told = &t->radio.fix;
     insole_real_t more_m2 = insole_square(t->config.sigma_fix_m);
