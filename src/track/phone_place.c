@@ -31,7 +31,7 @@ insole_status_t insole_phone_place_check(const insole_phone_place_config_t *conf
 insole_status_t insole_phone_place_init(insole_phone_place_t *place,
                                         const insole_phone_place_config_t *config,
                                         const insole_auto_start_config_t *config_start,
-                                        const insole_circle_start_calls_t *circles,
+                                        const insole_auto_start_circles_t *circles,
                                         const insole_step_filter_t *filter, bool has_radio)
 {
     if (!place || !config || !config_start || !filter) {

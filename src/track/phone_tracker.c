@@ -82,7 +82,7 @@ static void direct_start(insole_phone_tracker_t *t)
     }
 }
 
-static void count_steps(insole_phone_tracker_t *t, const insole_imu_t *imu)
+INSOLE_APART static void count_steps(insole_phone_tracker_t *t, const insole_imu_t *imu)
 {
     insole_footfall_t footfall;
     insole_pace_t pace;
@@ -137,7 +137,7 @@ static insole_real_t offset_of(const insole_phone_tracker_t *t, const insole_pho
     return insole_wrap_pi(t->place.start.heading_rad - insole_atan2(from.sin, from.cos));
 }
 
-static void fix_by_filter(insole_phone_tracker_t *t, insole_fix_t *fix)
+INSOLE_APART static void fix_by_filter(insole_phone_tracker_t *t, insole_fix_t *fix)
 {
     insole_phone_answer_t known;
     (void)insole_phone_place_answer(&t->place, fix->t_us, &known);

@@ -42,6 +42,14 @@ typedef float insole_real_t;
 #define INSOLE_COLD
 #endif
 
+/** Before a function that is not to be inlined: what it holds is not on the stack while its caller
+ *  calls another. */
+#ifdef __GNUC__
+#define INSOLE_APART __attribute__((noinline))
+#else
+#define INSOLE_APART
+#endif
+
 #define INSOLE_PI INSOLE_R(3.14159265358979323846)
 
 /** Square root; correctly rounded, hence the same bits on every machine. */
