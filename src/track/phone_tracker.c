@@ -37,7 +37,7 @@ INSOLE_COLD insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tr
                                        insole_phone_radio_can_hear(&radio)) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
-    tracker->config = *config;
+    memcpy(&tracker->config, config, sizeof tracker->config); /* both begin with the list */
     tracker->parts = *parts;
     tracker->radio = radio;
     tracker->counts = (insole_phone_counts_t){0u};
@@ -310,7 +310,7 @@ INSOLE_COLD insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tr
         return answer(tracker, INSOLE_ERR_TIME);
     }
     insole_trusted_area_t area;
-    const insole_phone_tracker_config_t *c = &tracker->config;
+    const insole_phone_tracker_own_t *c = &tracker->config;
     bool is_known = c->trust_sigmas > ZERO && has_filter(&tracker->parts) &&
                     insole_phone_place_area(&tracker->place, tracker->t_us, c->trust_sigmas,
                                             c->trust_least_m, &area);

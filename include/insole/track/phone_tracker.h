@@ -65,7 +65,7 @@ typedef struct {
 } insole_phone_counts_t;
 
 typedef struct {
-    insole_phone_tracker_config_t config;
+    insole_phone_tracker_own_t config;
     insole_phone_counts_t counts;
     insole_phone_parts_t parts;
 
