@@ -221,6 +221,3 @@ INSOLE_COLD insole_real_t insole_circle_start_direction(const insole_circle_pair
     }
     return insole_wrap_pi(best_rad);
 }
-
-const insole_circle_start_calls_t insole_circle_start_calls = {insole_circle_start_place,
-                                                               insole_circle_start_direction};

@@ -19,7 +19,7 @@ static bool is_pace(const insole_pace_t *pace)
            pace->var_heading_rad2 >= ZERO && insole_is_finite(pace->var_heading_rad2);
 }
 
-INSOLE_COLD insole_status_t insole_pace_check(const insole_pace_t *pace)
+insole_status_t insole_pace_check(const insole_pace_t *pace)
 {
     if (!pace) {
         return INSOLE_ERR_NULL;

@@ -69,7 +69,7 @@ static void bound_axis(insole_real_t *variance, insole_real_t *cov1, insole_real
     }
 }
 
-INSOLE_COLD static void widen(insole_sym3_t *P, insole_sym3_t by_rad2)
+static void widen(insole_sym3_t *P, insole_sym3_t by_rad2)
 {
     *P = insole_sym3_add(*P, by_rad2);
     bound_axis(&P->xx, &P->xy, &P->xz);
@@ -95,7 +95,7 @@ INSOLE_COLD static void level(insole_attitude_t *att)
 }
 
 /* Turns n: the attitude, the mean force and the tilt's covariance; the heading's own is lost. */
-INSOLE_COLD static void turn_heading(insole_attitude_t *att, insole_real_t heading_rad)
+static void turn_heading(insole_attitude_t *att, insole_real_t heading_rad)
 {
     insole_heading_t now = insole_heading(att->q, NULL);
     insole_real_t by_rad = heading_rad - now.heading_rad;

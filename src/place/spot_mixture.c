@@ -11,8 +11,8 @@ insole_spot_mixture_t insole_spot_mixture_empty(void)
 }
 
 /* The new weight becomes 1, all before shrink to their share of it. */
-INSOLE_COLD static void crown(insole_spot_mixture_t *mixture, uint32_t number, insole_spot_t spot,
-                              insole_real_t log_weight)
+static void crown(insole_spot_mixture_t *mixture, uint32_t number, insole_spot_t spot,
+                  insole_real_t log_weight)
 {
     insole_real_t shrink = mixture->count > 0u ? insole_exp(mixture->log_top - log_weight) : ZERO;
     mixture->weight *= shrink;

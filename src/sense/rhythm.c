@@ -17,7 +17,7 @@ insole_status_t insole_rhythm_init(insole_rhythm_t *rhythm)
     return INSOLE_OK;
 }
 
-INSOLE_COLD static void begin(insole_rhythm_t *rhythm, uint64_t t_us)
+static void begin(insole_rhythm_t *rhythm, uint64_t t_us)
 {
     for (uint32_t i = 0u; i < INSOLE_RHYTHM_PAST; i++) {
         rhythm->past[i] = ZERO;

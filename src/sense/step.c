@@ -135,7 +135,7 @@ static void learn(insole_step_counter_t *c)
 }
 
 /* The first of the held steps borrows from the second; the walker is known from all others. */
-INSOLE_COLD static void begin_walk(insole_step_counter_t *c)
+static void begin_walk(insole_step_counter_t *c)
 {
     borrow(newest_footfall(c, c->held), newest_footfall(c, c->held - 1u));
     insole_real_t shortest_s = c->config.max_interval_s, sum_mps2 = ZERO;
@@ -218,7 +218,7 @@ static bool is_close(const insole_step_counter_t *c, uint64_t t_us)
 }
 
 /* The newest value of the smoothed |a| is a local maximum. [PhoneEKF (2)] [PhoneUKF (5)] */
-INSOLE_COLD static void take_peak(insole_step_counter_t *c, uint64_t t_us)
+static void take_peak(insole_step_counter_t *c, uint64_t t_us)
 {
     insole_step_peak_t peak = {t_us, c->newest, c->span};
     if (c->has_peak && is_close(c, t_us)) {
@@ -240,7 +240,7 @@ INSOLE_COLD static void take_peak(insole_step_counter_t *c, uint64_t t_us)
 /* ---- samples ---------------------------------------------------------------------------- */
 
 /* What the walker is used to is kept. */
-INSOLE_COLD static void begin_anew(insole_step_counter_t *c, insole_real_t length_mps2)
+static void begin_anew(insole_step_counter_t *c, insole_real_t length_mps2)
 {
     c->mean_mps2 = length_mps2;
     c->band = c->low = c->newest = c->older = c->trough = ZERO;
@@ -317,8 +317,7 @@ insole_status_t insole_step_push(insole_step_counter_t *counter, uint64_t t_us, 
     return INSOLE_OK;
 }
 
-INSOLE_COLD insole_status_t insole_step_next(insole_step_counter_t *counter,
-                                             insole_footfall_t *footfall)
+insole_status_t insole_step_next(insole_step_counter_t *counter, insole_footfall_t *footfall)
 {
     if (!counter || !footfall) {
         return INSOLE_ERR_NULL;

@@ -48,7 +48,7 @@ static void begin_block(insole_phone_compass_t *c)
     c->readings = 0u;
 }
 
-INSOLE_COLD static bool close_block(insole_phone_compass_t *c, uint64_t t_us)
+static bool close_block(insole_phone_compass_t *c, uint64_t t_us)
 {
     if (c->readings == 0u || insole_seconds(c->block_us, t_us) < c->config.block_s) {
         return false;
@@ -89,7 +89,7 @@ INSOLE_COLD void insole_phone_compass_forget(insole_phone_compass_t *compass)
     compass->used = 0u;
 }
 
-INSOLE_COLD insole_phone_sight_t insole_phone_compass_sight(const insole_phone_compass_t *compass)
+insole_phone_sight_t insole_phone_compass_sight(const insole_phone_compass_t *compass)
 {
     insole_phone_sight_t sight = {compass->used > 0u, compass->block_rad,
                                   compass->config.sigma_block_rad, compass->mean_rad,

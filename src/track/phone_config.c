@@ -18,7 +18,7 @@ static insole_status_t check_own(const insole_phone_tracker_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-INSOLE_COLD insole_status_t insole_phone_config_check(const insole_phone_tracker_config_t *config)
+insole_status_t insole_phone_config_check(const insole_phone_tracker_config_t *config)
 {
     if (!config) {
         return INSOLE_ERR_NULL;

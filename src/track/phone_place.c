@@ -28,12 +28,11 @@ insole_status_t insole_phone_place_check(const insole_phone_place_config_t *conf
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-INSOLE_COLD insole_status_t insole_phone_place_init(insole_phone_place_t *place,
-                                                    const insole_phone_place_config_t *config,
-                                                    const insole_auto_start_config_t *config_start,
-                                                    const insole_circle_start_calls_t *circles,
-                                                    const insole_step_filter_t *filter,
-                                                    bool has_radio)
+insole_status_t insole_phone_place_init(insole_phone_place_t *place,
+                                        const insole_phone_place_config_t *config,
+                                        const insole_auto_start_config_t *config_start,
+                                        const insole_auto_start_circles_t *circles,
+                                        const insole_step_filter_t *filter, bool has_radio)
 {
     if (!place || !config || !config_start || !filter) {
         return INSOLE_ERR_NULL;
@@ -80,8 +79,7 @@ static insole_status_t note(insole_phone_place_t *p, insole_status_t status)
     return status;
 }
 
-INSOLE_COLD static insole_status_t begin(insole_phone_place_t *p,
-                                         const insole_step_filter_begin_t *at)
+static insole_status_t begin(insole_phone_place_t *p, const insole_step_filter_begin_t *at)
 {
     insole_status_t status = p->filter.calls->start(p->filter.state, at);
     if (status == INSOLE_OK) {
@@ -91,8 +89,7 @@ INSOLE_COLD static insole_status_t begin(insole_phone_place_t *p,
     return note(p, status);
 }
 
-INSOLE_COLD static insole_status_t walk(insole_phone_place_t *p, uint64_t t_us,
-                                        const insole_pace_t *pace)
+static insole_status_t walk(insole_phone_place_t *p, uint64_t t_us, const insole_pace_t *pace)
 {
     return note(p, p->filter.calls->step(p->filter.state, t_us, pace));
 }
@@ -109,7 +106,7 @@ static bool is_reached(const insole_phone_place_t *p, uint64_t t_us)
     return p->has_start && t_us >= p->start.t_us;
 }
 
-INSOLE_COLD static insole_step_filter_begin_t at_start(const insole_phone_place_t *p, uint64_t t_us)
+static insole_step_filter_begin_t at_start(const insole_phone_place_t *p, uint64_t t_us)
 {
     insole_real_t sigma_m = insole_max(p->start.sigma_m, LEAST_SIGMA_M);
     insole_step_filter_begin_t at = {.t_us = t_us,
@@ -140,7 +137,7 @@ INSOLE_COLD insole_status_t insole_phone_place_direct(insole_phone_place_t *plac
 }
 
 /* The place alone was told. */
-INSOLE_COLD static insole_status_t begin_undirected(insole_phone_place_t *p, uint64_t t_us)
+static insole_status_t begin_undirected(insole_phone_place_t *p, uint64_t t_us)
 {
     insole_step_filter_begin_t at = at_start(p, t_us);
     p->has_start = false;
@@ -157,7 +154,7 @@ INSOLE_COLD static insole_status_t begin_undirected(insole_phone_place_t *p, uin
     return begin(p, &at);
 }
 
-INSOLE_COLD static insole_status_t begin_at_origin(insole_phone_place_t *p, uint64_t t_us)
+static insole_status_t begin_at_origin(insole_phone_place_t *p, uint64_t t_us)
 {
     const insole_step_filter_calls_t *calls = p->filter.calls;
     if (calls->start_anywhere && calls->start_anywhere(p->filter.state, t_us) == INSOLE_OK) {
@@ -190,8 +187,7 @@ INSOLE_COLD insole_status_t insole_phone_place_step(insole_phone_place_t *place,
 
 /* ---- fixes ------------------------------------------------------------------------------ */
 
-INSOLE_COLD static insole_status_t begin_by_fixes(insole_phone_place_t *p,
-                                                  const insole_spot_fix_t *fix)
+static insole_status_t begin_by_fixes(insole_phone_place_t *p, const insole_spot_fix_t *fix)
 {
     insole_auto_start_answer_t found;
     if (p->sight.is_known) {
@@ -212,7 +208,7 @@ INSOLE_COLD static insole_status_t begin_by_fixes(insole_phone_place_t *p,
 }
 
 /* What is heard of a bias is known before the fix is used. */
-INSOLE_COLD static void tell_bias(insole_phone_place_t *p)
+static void tell_bias(insole_phone_place_t *p)
 {
     insole_real_t sigma_m = p->told.fixes > 0u ? p->config.bias_share * insole_sqrt(p->told.mean_m2)
                                                : INSOLE_SPOT_MOST_M;
@@ -223,7 +219,7 @@ INSOLE_COLD static void tell_bias(insole_phone_place_t *p)
 }
 
 /* Of dense fingerprints fixes tell more, and what they share is less. */
-INSOLE_COLD static void learn_bias(insole_phone_place_t *p, const insole_spot_fix_t *fix)
+static void learn_bias(insole_phone_place_t *p, const insole_spot_fix_t *fix)
 {
     insole_phone_told_t *told = &p->told;
     told->fixes += told->fixes < UINT32_MAX ? 1u : 0u;

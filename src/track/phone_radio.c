@@ -41,9 +41,8 @@ static uint64_t heard_at(const insole_phone_radio_t *radio, const insole_scan_t 
     return scan->t_us > age_us ? scan->t_us - age_us : 0u;
 }
 
-INSOLE_COLD insole_status_t insole_phone_radio_hear(insole_phone_radio_t *radio,
-                                                    const insole_scan_t *scan,
-                                                    const insole_trusted_area_t *area)
+insole_status_t insole_phone_radio_hear(insole_phone_radio_t *radio, const insole_scan_t *scan,
+                                        const insole_trusted_area_t *area)
 {
     if (!radio || !scan || (!scan->readings && scan->count > 0u)) {
         return INSOLE_ERR_NULL;

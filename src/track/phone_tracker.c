@@ -37,7 +37,7 @@ INSOLE_COLD insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tr
                                        insole_phone_radio_can_hear(&radio)) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
-    tracker->config = *config;
+    memcpy(&tracker->config, config, sizeof tracker->config); /* both begin with the list */
     tracker->parts = *parts;
     tracker->radio = radio;
     tracker->counts = (insole_phone_counts_t){0u};
@@ -82,7 +82,7 @@ static void direct_start(insole_phone_tracker_t *t)
     }
 }
 
-static void count_steps(insole_phone_tracker_t *t, const insole_imu_t *imu)
+INSOLE_APART static void count_steps(insole_phone_tracker_t *t, const insole_imu_t *imu)
 {
     insole_footfall_t footfall;
     insole_pace_t pace;
@@ -137,7 +137,7 @@ static insole_real_t offset_of(const insole_phone_tracker_t *t, const insole_pho
     return insole_wrap_pi(t->place.start.heading_rad - insole_atan2(from.sin, from.cos));
 }
 
-static void fix_by_filter(insole_phone_tracker_t *t, insole_fix_t *fix)
+INSOLE_APART static void fix_by_filter(insole_phone_tracker_t *t, insole_fix_t *fix)
 {
     insole_phone_answer_t known;
     (void)insole_phone_place_answer(&t->place, fix->t_us, &known);
@@ -282,7 +282,7 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
 
 /* ---- radio ------------------------------------------------------------------------------ */
 
-INSOLE_COLD static void use_fix(insole_phone_tracker_t *t)
+static void use_fix(insole_phone_tracker_t *t)
 {
     const insole_radio_fix_t *told = &t->radio.fix;
     insole_real_t more_m2 = insole_square(t->config.sigma_fix_m);
@@ -294,7 +294,7 @@ INSOLE_COLD static void use_fix(insole_phone_tracker_t *t)
 }
 
 /* After one ahead the filter takes none of before; of one long ago the way since is forgotten. */
-INSOLE_COLD static bool is_in_time(const insole_phone_tracker_t *t, uint64_t t_us)
+static bool is_in_time(const insole_phone_tracker_t *t, uint64_t t_us)
 {
     bool is_ahead = t->has_time && t_us > t->t_us && t_us - t->t_us > SCAN_AHEAD_US;
     return !has_filter(&t->parts) || (!is_ahead && insole_phone_way_reaches(&t->walk.way, t_us));
@@ -310,7 +310,7 @@ INSOLE_COLD insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tr
         return answer(tracker, INSOLE_ERR_TIME);
     }
     insole_trusted_area_t area;
-    const insole_phone_tracker_config_t *c = &tracker->config;
+    const insole_phone_tracker_own_t *c = &tracker->config;
     bool is_known = c->trust_sigmas > ZERO && has_filter(&tracker->parts) &&
                     insole_phone_place_area(&tracker->place, tracker->t_us, c->trust_sigmas,
                                             c->trust_least_m, &area);

@@ -94,8 +94,8 @@ INSOLE_COLD static bool pace_of(const insole_phone_walk_t *w, const insole_footf
 }
 
 /* The guide is asked for every step: the gait knows its end from those before. */
-INSOLE_COLD static void ask_guide(insole_phone_walk_t *w, const insole_footfall_t *footfall,
-                                  insole_pace_t *pace)
+static void ask_guide(insole_phone_walk_t *w, const insole_footfall_t *footfall,
+                      insole_pace_t *pace)
 {
     const insole_phone_guide_t *guide = &w->guide;
     if (guide->calls && !guide->calls->step(guide->state, w, footfall, pace)) {

@@ -42,7 +42,7 @@ static uint32_t place_of(const insole_phone_way_t *way, uint32_t back)
 }
 
 /* The slots from the newest to that of the time, as many as there are. */
-INSOLE_COLD static void open_slots(insole_phone_way_t *way, uint64_t t_us)
+static void open_slots(insole_phone_way_t *way, uint64_t t_us)
 {
     uint64_t slot = slot_of(t_us), fresh = slot - way->slot;
     uint32_t count = fresh < INSOLE_PHONE_WAY_SLOTS ? (uint32_t)fresh : INSOLE_PHONE_WAY_SLOTS;

@@ -68,7 +68,7 @@ typedef struct {
 static insole_auto_start_t begin_start(const insole_auto_start_config_t *config)
 {
     insole_auto_start_t start;
-    ck_assert_int_eq(insole_auto_start_init(&start, config, &insole_circle_start_calls), INSOLE_OK);
+    ck_assert_int_eq(insole_auto_start_init(&start, config, &insole_auto_start_circles), INSOLE_OK);
     return start;
 }
 
@@ -655,7 +655,7 @@ static insole_status_t judge(void)
     insole_auto_start_t start;
     memset(&start, 0x5a, sizeof start);
     insole_auto_start_t before = start;
-    insole_status_t status = insole_auto_start_init(&start, &config, &insole_circle_start_calls);
+    insole_status_t status = insole_auto_start_init(&start, &config, &insole_auto_start_circles);
     ck_assert(status == INSOLE_OK || memcmp(&start, &before, sizeof start) == 0);
     return status;
 }
@@ -667,9 +667,9 @@ START_TEST(settings_have_their_ranges)
     INSOLE_AUTO_START_KEYS(SETTING_HAS_ENDS)
     insole_auto_start_t start;
     memset(&start, 0x5a, sizeof start);
-    ck_assert_int_eq(insole_auto_start_init(NULL, &config, &insole_circle_start_calls),
+    ck_assert_int_eq(insole_auto_start_init(NULL, &config, &insole_auto_start_circles),
                      INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(start, insole_auto_start_init(&start, NULL, &insole_circle_start_calls),
+    ASSERT_UNCHANGED(start, insole_auto_start_init(&start, NULL, &insole_auto_start_circles),
                      INSOLE_ERR_NULL);
 }
 END_TEST

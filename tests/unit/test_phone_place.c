@@ -800,7 +800,7 @@ START_TEST(every_setting_has_its_range)
         insole_phone_place_init(&place, &insole_phone_place_defaults, &start, NULL, &plain, true),
         INSOLE_ERR_VALUE);
     ck_assert_int_eq(insole_phone_place_init(&place, &insole_phone_place_defaults, &start,
-                                             &insole_circle_start_calls, &plain, true),
+                                             &insole_auto_start_circles, &plain, true),
                      INSOLE_OK);
     start = start_settings;
     start.fixes = 0;

@@ -144,7 +144,7 @@ static bool set_up_states(phone_parts_t *parts, const phone_settings_t *settings
     parts->library.guide.state = &parts->gait;
     parts->library.magnetic.push = insole_magnetic_push;
     parts->library.magnetic.state = &parts->magnetic;
-    parts->library.circles = &insole_circle_start_calls;
+    parts->library.circles = &insole_auto_start_circles;
     return insole_magnetic_init(&parts->magnetic, &settings->magnetic) == INSOLE_OK &&
            insole_walk_heading_init(&parts->walk_heading, &settings->walk_heading) == INSOLE_OK &&
            insole_carry_init(&parts->carry, &settings->carry) == INSOLE_OK &&

@@ -42,7 +42,8 @@ typedef float insole_real_t;
 #define INSOLE_COLD
 #endif
 
-/** Before a step that most calls do not take: kept apart, so that they make no room for it. */
+/** Before a function that is not to be inlined: callers that do not take this step make no room for
+ *  it. */
 #ifdef __GNUC__
 #define INSOLE_APART __attribute__((noinline))
 #else

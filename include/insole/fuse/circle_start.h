@@ -14,7 +14,7 @@
  *  nearest to the regression line of the fixes: total least squares, since a walk along y has no
  *  slope, and of the line's two directions the one in which the fixes went.
  *
- *  auto_start.h takes it as one of its methods, if it is given the calls.
+ *  auto_start.h takes it as one of its methods.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -44,15 +44,6 @@ insole_spot_t insole_circle_start_place(const insole_circle_pair_t *pairs, uint3
  *  tells it (nobody walked, all fixes are equal). */
 insole_real_t insole_circle_start_direction(const insole_circle_pair_t *pairs, uint32_t count,
                                             insole_spot_t begin);
-
-/** Both, for auto_start.h: who does not name them does not link them. */
-typedef struct {
-    insole_spot_t (*place)(const insole_circle_pair_t *pairs, uint32_t count);
-    insole_real_t (*direction)(const insole_circle_pair_t *pairs, uint32_t count,
-                               insole_spot_t begin);
-} insole_circle_start_calls_t;
-
-extern const insole_circle_start_calls_t insole_circle_start_calls;
 
 /** Total distance from a place to the circles. */
 insole_real_t insole_circle_start_distance(const insole_circle_pair_t *pairs, uint32_t count,

@@ -49,6 +49,11 @@ typedef struct {
     insole_phone_place_config_t place;
 } insole_phone_tracker_config_t;
 
+/** The tracker's own, which it keeps; its parts keep theirs. */
+typedef struct {
+    INSOLE_PHONE_TRACKER_KEYS(INSOLE_CONFIG_MEMBER)
+} insole_phone_tracker_own_t;
+
 extern const insole_phone_tracker_config_t insole_phone_tracker_defaults;
 
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */

@@ -101,7 +101,7 @@ typedef struct {
 insole_status_t insole_phone_place_init(insole_phone_place_t *place,
                                         const insole_phone_place_config_t *config,
                                         const insole_auto_start_config_t *config_start,
-                                        const insole_circle_start_calls_t *circles,
+                                        const insole_auto_start_circles_t *circles,
                                         const insole_step_filter_t *filter, bool has_radio);
 
 /** A start that holds from its time on, in place of an earlier one.

@@ -53,7 +53,7 @@ typedef struct {
     insole_step_filter_t filter;
     insole_phone_guide_t guide;      /**< NULL: a step goes where the phone points */
     insole_magnetic_part_t magnetic; /**< push NULL: the field does not correct the attitude */
-    const insole_circle_start_calls_t *circles; /**< NULL: no start by that method */
+    const insole_auto_start_circles_t *circles; /**< NULL: no start by that method */
 } insole_phone_parts_t;
 
 typedef struct {
@@ -65,7 +65,7 @@ typedef struct {
 } insole_phone_counts_t;
 
 typedef struct {
-    insole_phone_tracker_config_t config;
+    insole_phone_tracker_own_t config;
     insole_phone_counts_t counts;
     insole_phone_parts_t parts;
 
