@@ -332,9 +332,10 @@ static insole_real_t nearest_m2(const insole_floor_plan_t *plan, const way_t *at
     return nearest;
 }
 
-INSOLE_COLD insole_status_t insole_floor_plan_clearance(const insole_floor_plan_t *plan, insole_real_t x_m,
-                                            insole_real_t y_m, insole_real_t limit_m,
-                                            insole_real_t *distance_m)
+INSOLE_COLD insole_status_t insole_floor_plan_clearance(const insole_floor_plan_t *plan,
+                                                        insole_real_t x_m, insole_real_t y_m,
+                                                        insole_real_t limit_m,
+                                                        insole_real_t *distance_m)
 {
     if (plan == NULL || distance_m == NULL) {
         return INSOLE_ERR_NULL;
@@ -348,7 +349,7 @@ INSOLE_COLD insole_status_t insole_floor_plan_clearance(const insole_floor_plan_
 }
 
 INSOLE_COLD bool insole_floor_plan_is_closed(const insole_floor_plan_t *plan, insole_real_t x_m,
-                                 insole_real_t y_m, insole_real_t depth_m)
+                                             insole_real_t y_m, insole_real_t depth_m)
 {
     if (plan == NULL || insole_floor_plan_inside(plan, x_m, y_m)) {
         return false;
