@@ -185,7 +185,8 @@ static float log_of_normal(float x, int32_t scale)
 
 static float log_of(float x)
 {
-    return x < FLT_MIN ? log_of_normal(x * 8388608.0f, -MANTISSA_BITS) : log_of_normal(x, 0);
+    bool is_small = x < FLT_MIN;
+    return log_of_normal(is_small ? x * 8388608.0f : x, is_small ? -MANTISSA_BITS : 0);
 }
 
 #endif

@@ -134,13 +134,12 @@ static void draw_even(const insole_cloud_source_t *source, insole_particle_t *pa
 static void draw_normal(const insole_cloud_source_t *source, insole_particle_t *particle,
                         insole_rng_t *rng)
 {
-    insole_real_t first, second;
-    insole_rng_normals(rng, &first, &second);
+    insole_normals_t off = insole_rng_normals(rng);
     insole_real_t root_x = insole_sqrt(source->var_x_m2);
     insole_real_t root_xy = root_x > ZERO ? source->cov_xy_m2 / root_x : ZERO;
     insole_real_t root_y = insole_sqrt(insole_max(ZERO, source->var_y_m2 - root_xy * root_xy));
-    particle->x_m = source->x_m + root_x * first;
-    particle->y_m = source->y_m + root_xy * first + root_y * second;
+    particle->x_m = source->x_m + root_x * off.first;
+    particle->y_m = source->y_m + root_xy * off.first + root_y * off.second;
 }
 
 static void draw_place(const insole_cloud_source_t *source, insole_particle_t *particle,
@@ -156,10 +155,10 @@ static void draw_place(const insole_cloud_source_t *source, insole_particle_t *p
 static void draw_walk(const insole_cloud_source_t *source, insole_particle_t *particle,
                       insole_rng_t *rng)
 {
-    insole_real_t first, second;
-    insole_rng_normals(rng, &first, &second);
-    particle->scale = source->scale + source->sigma_scale * second;
-    particle->offset_rad = insole_wrap_pi(source->offset_rad + source->sigma_offset_rad * first);
+    insole_normals_t off = insole_rng_normals(rng);
+    particle->scale = source->scale + source->sigma_scale * off.second;
+    particle->offset_rad =
+        insole_wrap_pi(source->offset_rad + source->sigma_offset_rad * off.first);
     if (source->sigma_offset_rad >= INSOLE_PI) {
         particle->offset_rad = INSOLE_PI * (ONE - INSOLE_R(2.0) * insole_rng_uniform(rng));
     }
@@ -179,19 +178,31 @@ void insole_cloud_source_draw(const insole_cloud_source_t *source, insole_partic
     }
 }
 
-void insole_cloud_source_spread(const insole_cloud_source_t *source, insole_real_t share,
-                                insole_particle_t *particle, const insole_floor_plan_t *plan,
-                                insole_rng_t *rng)
+insole_cloud_aside_t insole_cloud_source_aside(const insole_cloud_source_t *source,
+                                               insole_real_t share)
 {
-    insole_real_t x, y, turn, spare;
-    insole_rng_normals(rng, &x, &y);
-    insole_rng_normals(rng, &turn, &spare);
-    x = particle->x_m + share * insole_sqrt(source->var_x_m2) * x;
-    y = particle->y_m + share * insole_sqrt(source->var_y_m2) * y;
+    insole_real_t widest = insole_sqrt(INSOLE_R(3.0)) * share; /* of what is even, in sigmas */
+    insole_cloud_aside_t aside = {widest * insole_sqrt(source->var_x_m2),
+                                  widest * insole_sqrt(source->var_y_m2),
+                                  widest * source->sigma_offset_rad};
+    return aside;
+}
+
+/* Evenly to either side. */
+static insole_real_t even_within(insole_real_t most, insole_rng_t *rng)
+{
+    return most * (INSOLE_R(2.0) * insole_rng_uniform(rng) - ONE);
+}
+
+void insole_cloud_source_spread(const insole_cloud_aside_t *aside, insole_particle_t *particle,
+                                const insole_floor_plan_t *plan, insole_rng_t *rng)
+{
+    insole_real_t x = particle->x_m + even_within(aside->x_m, rng);
+    insole_real_t y = particle->y_m + even_within(aside->y_m, rng);
     if (!plan || !insole_floor_plan_crosses(plan, particle->x_m, particle->y_m, x, y)) {
         particle->x_m = x;
         particle->y_m = y;
     }
     particle->offset_rad =
-        insole_wrap_pi(particle->offset_rad + share * source->sigma_offset_rad * turn);
+        insole_wrap_pi(particle->offset_rad + even_within(aside->offset_rad, rng));
 }

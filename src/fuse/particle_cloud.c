@@ -29,7 +29,7 @@ void insole_cloud_sum_begin(insole_cloud_sum_t *sum, const insole_cloud_t *cloud
     sum->reference = cloud->particles[heaviest];
 }
 
-static void add(insole_cloud_sum_t *sum, const insole_particle_t *particle)
+static inline void add(insole_cloud_sum_t *sum, const insole_particle_t *particle)
 {
     insole_real_t w = weight_of(particle, sum->reference.log_weight);
     insole_real_t x = particle->x_m - sum->reference.x_m, wx = w * x;
@@ -49,12 +49,14 @@ static void add(insole_cloud_sum_t *sum, const insole_particle_t *particle)
 
 bool insole_cloud_sum_work(insole_cloud_sum_t *sum, const insole_cloud_t *cloud, uint32_t *budget)
 {
-    const insole_particle_t *particle = &cloud->particles[sum->next];
-    sum->next = insole_cloud_slice(cloud, sum->next, budget);
-    for (const insole_particle_t *end = &cloud->particles[sum->next]; particle < end; particle++) {
-        add(sum, particle);
+    insole_cloud_sum_t own = *sum; /* in registers */
+    const insole_particle_t *particle = &cloud->particles[own.next];
+    own.next = insole_cloud_slice(cloud, own.next, budget);
+    for (const insole_particle_t *end = &cloud->particles[own.next]; particle < end; particle++) {
+        add(&own, particle);
     }
-    return sum->next < cloud->count;
+    *sum = own;
+    return own.next < cloud->count;
 }
 
 static insole_real_t variance(insole_real_t mean_square, insole_real_t mean)

@@ -64,6 +64,7 @@ INSOLE_COLD insole_cloud_stride_t insole_particle_config_stride(
         .sigma_scale =
             config->sigma_scale * insole_sqrt(ONE - insole_square(config->scale_memory))};
     if (config->scatter == INSOLE_SCATTER_APART) {
+        stride.is_apart = true;
         stride.apart_wander_rad = stride.sigma_wander_rad;
         stride.apart_scale = stride.sigma_scale;
         stride.sigma_wander_rad = ZERO;

@@ -221,59 +221,48 @@ static void end_sum(insole_particle_filter_t *filter, const insole_cloud_t *clou
     }
 }
 
-static void finish_one(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
-                       const insole_floor_plan_t *plan)
+static void finish(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                   const insole_floor_plan_t *plan, uint32_t first, uint32_t end)
 {
-    insole_particle_t *particle = &cloud->particles[filter->next];
-    if (filter->spreads) {
-        insole_cloud_source_t own = insole_cloud_source(&filter->fix, ZERO); /* `reach` is wider */
-        insole_cloud_source_spread(&own, filter->config.spread_share, particle, plan, &filter->rng);
+    insole_cloud_source_t own = insole_cloud_source(&filter->fix, ZERO); /* `reach` is wider */
+    insole_cloud_aside_t aside = insole_cloud_source_aside(&own, filter->config.spread_share);
+    for (uint32_t i = first; i < end; i++) {
+        insole_particle_t *particle = &cloud->particles[i];
+        if (filter->spreads) {
+            insole_cloud_source_spread(&aside, particle, plan, &filter->rng);
+        }
+        if (filter->redraw_every > 0 && i % filter->redraw_every == 0) {
+            insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
+            particle->log_weight = insole_particle_lives(particle) ? filter->weighing.common_log
+                                                                   : INSOLE_PARTICLE_DEAD;
+        }
+        insole_cloud_remember(cloud, i, filter->since_start);
     }
-    if (filter->redraw_every > 0 && filter->next % filter->redraw_every == 0) {
-        insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
-        particle->log_weight =
-            insole_particle_lives(particle) ? filter->weighing.common_log : INSOLE_PARTICLE_DEAD;
-    }
-    insole_cloud_remember(cloud, filter->next, filter->since_start);
 }
 
 /* ---- the work ---- */
 
-static void work_one(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
-                     const insole_floor_plan_t *plan)
+static void draw_one(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                     const insole_floor_plan_t *plan, uint32_t number)
 {
-    insole_weighing_t *weighing = &filter->weighing;
-    insole_particle_t *particle = &cloud->particles[filter->next];
-    switch (filter->phase) {
-    case INSOLE_PARTICLES_DRAW:
-        insole_cloud_source_draw(&filter->source, particle, filter->anywhere ? NULL : plan,
-                                 &filter->rng);
-        insole_step_weighing_drawn(&filter->steps, cloud, filter->next);
-        insole_weighing_note(weighing, particle, filter->next);
-        break;
-    case INSOLE_PARTICLES_MOVE:
-        insole_weighing_move(weighing, &filter->field, plan, particle, &filter->rng);
-        if (weighing->news.has_scan) {
-            break; /* weighed when the field is computed */
-        }          /* fall through */
-    case INSOLE_PARTICLES_WEIGH:
-        insole_weighing_weigh(weighing, &filter->field, particle, filter->next);
-        break;
-    default:
-        finish_one(filter, cloud, plan);
-    }
+    insole_particle_t *particle = &cloud->particles[number];
+    plan = filter->anywhere ? NULL : plan;
+    insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
+    insole_step_weighing_drawn(&filter->steps, cloud, number);
+    insole_weighing_note(&filter->weighing, particle, number);
 }
 
-/* What a phone told: all walk before any is weighed. */
-static void step_one(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
-                     const insole_floor_plan_t *plan)
+/* Where a scan was told, or all must walk before any is weighed, weighing has a round of its own.
+ */
+static void move(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                 const insole_floor_plan_t *plan, uint32_t first, uint32_t end)
 {
+    insole_weighing_t *weighing = &filter->weighing;
+    insole_weighing_move(weighing, &filter->field, plan, cloud, first, end, &filter->rng);
     if (filter->phase == INSOLE_PARTICLES_STEP) {
-        insole_step_weighing_move(&filter->steps, &filter->weighing, &filter->field, plan,
-                                  &cloud->particles[filter->next], &filter->rng);
-    } else {
-        insole_step_weighing_weigh(&filter->steps, &filter->weighing, &filter->field, plan, cloud,
-                                   filter->next);
+        insole_step_weighing_look(&filter->steps, plan, cloud, first, end);
+    } else if (!weighing->news.has_scan) {
+        insole_weighing_weigh(weighing, &filter->field, cloud, first, end);
     }
 }
 
@@ -324,17 +313,27 @@ static void end_phase(insole_particle_filter_t *filter, const insole_cloud_t *cl
 static void work_particles(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
                            const insole_floor_plan_t *plan, uint32_t *budget)
 {
-    const insole_particle_phase_t phase = filter->phase;
-    bool is_step = phase == INSOLE_PARTICLES_STEP || phase == INSOLE_PARTICLES_STEP_WEIGH;
-    bool is_free = filter->config.walls == INSOLE_WALLS_SOFT && phase != INSOLE_PARTICLES_DRAW;
-    uint32_t end = insole_cloud_slice(cloud, filter->next, budget);
-    for (; is_step && filter->next < end; filter->next++) {
-        step_one(filter, cloud, plan);
+    uint32_t first = filter->next, end = insole_cloud_slice(cloud, first, budget);
+    filter->next = end;
+    switch (filter->phase) {
+    case INSOLE_PARTICLES_DRAW:
+        for (uint32_t i = first; i < end; i++) {
+            draw_one(filter, cloud, plan, i);
+        }
+        break;
+    case INSOLE_PARTICLES_STEP:
+    case INSOLE_PARTICLES_MOVE:
+        move(filter, cloud, plan, first, end);
+        break;
+    case INSOLE_PARTICLES_STEP_WEIGH:
+        insole_step_weighing_weigh(&filter->steps, plan, cloud, first, end); /* fall through */
+    case INSOLE_PARTICLES_WEIGH:
+        insole_weighing_weigh(&filter->weighing, &filter->field, cloud, first, end);
+        break;
+    default:
+        finish(filter, cloud, filter->config.walls == INSOLE_WALLS_SOFT ? NULL : plan, first, end);
     }
-    for (; filter->next < end; filter->next++) {
-        work_one(filter, cloud, is_free ? NULL : plan);
-    }
-    if (filter->next == cloud->count) {
+    if (end == cloud->count) {
         end_phase(filter, cloud);
     }
 }

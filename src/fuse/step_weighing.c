@@ -64,25 +64,21 @@ insole_status_t insole_step_weighing_begin(insole_step_weighing_t *steps,
     steps->heading_rad = news->has_stride ? news->heading_rad : steps->heading_rad;
     steps->rss = news->rss;
     steps->rss_since = news->rss_since;
-    steps->wanders = config->scatter == INSOLE_SCATTER_APART && news->has_stride;
     steps->looks = config->walls == INSOLE_WALLS_SOFT && has_plan && news->has_stride;
-    steps->is_told =
-        steps->has_fix || steps->has_compass || steps->rss || steps->looks || steps->wanders;
+    steps->is_told = steps->has_fix || steps->has_compass || steps->rss || steps->looks;
     insole_soft_walls_begin(&steps->soft, config->soft_depth_m, config->soft_weight,
                             config->soft_least);
     return INSOLE_OK;
 }
 
-void insole_step_weighing_move(insole_step_weighing_t *steps, const insole_weighing_t *weighing,
-                               insole_rss_field_t *field, const insole_floor_plan_t *plan,
-                               insole_particle_t *particle, insole_rng_t *rng)
+void insole_step_weighing_look(insole_step_weighing_t *steps, const insole_floor_plan_t *plan,
+                               const insole_cloud_t *cloud, uint32_t first, uint32_t end)
 {
-    if (steps->wanders && insole_particle_lives(particle)) {
-        insole_cloud_wander(particle, &weighing->stride, rng);
-    }
-    insole_weighing_move(weighing, field, plan, particle, rng);
-    if (steps->looks && insole_particle_lives(particle)) {
-        insole_soft_walls_look(&steps->soft, plan, particle->x_m, particle->y_m);
+    for (uint32_t i = first; i < end && steps->looks; i++) {
+        const insole_particle_t *particle = &cloud->particles[i];
+        if (insole_particle_lives(particle)) {
+            insole_soft_walls_look(&steps->soft, plan, particle->x_m, particle->y_m);
+        }
     }
 }
 
@@ -130,14 +126,15 @@ static insole_real_t log_of_all(const insole_step_weighing_t *steps,
     return log;
 }
 
-void insole_step_weighing_weigh(const insole_step_weighing_t *steps, insole_weighing_t *weighing,
-                                const insole_rss_field_t *field, const insole_floor_plan_t *plan,
-                                const insole_cloud_t *cloud, uint32_t number)
+void insole_step_weighing_weigh(const insole_step_weighing_t *steps,
+                                const insole_floor_plan_t *plan, const insole_cloud_t *cloud,
+                                uint32_t first, uint32_t end)
 {
-    insole_particle_t *particle = &cloud->particles[number];
-    if (insole_particle_lives(particle)) {
-        particle->log_weight +=
-            log_of_all(steps, plan, particle, cloud->bias ? &cloud->bias[number] : NULL);
-        insole_weighing_weigh(weighing, field, particle, number);
+    for (uint32_t i = first; i < end; i++) {
+        insole_particle_t *particle = &cloud->particles[i];
+        if (insole_particle_lives(particle)) {
+            particle->log_weight +=
+                log_of_all(steps, plan, particle, cloud->bias ? &cloud->bias[i] : NULL);
+        }
     }
 }

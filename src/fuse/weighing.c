@@ -24,36 +24,45 @@ bool insole_weighing_listen(const insole_weighing_t *weighing, insole_rss_field_
            insole_rss_field_place(field, &around) == INSOLE_OK;
 }
 
+/* Does the way to where a particle is now kill it? */
 static bool kills(insole_walls_t walls, const insole_floor_plan_t *plan, insole_spot_t from,
                   const insole_particle_t *to)
 {
-    if (!plan || walls == INSOLE_WALLS_OFF) {
-        return false;
-    }
     return walls == INSOLE_WALLS_INSIDE
                ? !insole_floor_plan_inside(plan, to->x_m, to->y_m) /* [TwoOrder (40)] */
                : insole_floor_plan_crosses(plan, from.x_m, from.y_m, to->x_m, to->y_m);
 }
 
-void insole_weighing_move(const insole_weighing_t *weighing, insole_rss_field_t *field,
-                          const insole_floor_plan_t *plan, insole_particle_t *particle,
-                          insole_rng_t *rng)
+/* The settings of the stride are copied: they stay the same while particles change. */
+static void walk(const insole_weighing_t *weighing, const insole_floor_plan_t *plan,
+                 insole_particle_t *particle, insole_particle_t *end, insole_rng_t *rng)
 {
-    const insole_evidence_t *news = &weighing->news;
-    if (!insole_particle_lives(particle)) {
-        return;
-    }
-    if (news->has_stride) {
-        insole_spot_t from = {particle->x_m, particle->y_m};
-        insole_cloud_walk(particle, &weighing->stride, rng);
-        if (kills(weighing->walls, plan, from, particle)) {
-            particle->log_weight = INSOLE_PARTICLE_DEAD;
-            return;
+    const insole_cloud_stride_t stride = weighing->stride;
+    const insole_walls_t walls = plan ? weighing->walls : INSOLE_WALLS_OFF;
+    for (; particle < end; particle++) {
+        if (insole_particle_lives(particle)) {
+            insole_spot_t from = {particle->x_m, particle->y_m};
+            insole_cloud_walk(particle, &stride, rng);
+            if (walls != INSOLE_WALLS_OFF && kills(walls, plan, from, particle)) {
+                particle->log_weight = INSOLE_PARTICLE_DEAD;
+            }
         }
     }
-    if (news->has_scan) {
-        insole_rss_field_need(field, particle->x_m - news->since.x_m,
-                              particle->y_m - news->since.y_m);
+}
+
+void insole_weighing_move(const insole_weighing_t *weighing, insole_rss_field_t *field,
+                          const insole_floor_plan_t *plan, const insole_cloud_t *cloud,
+                          uint32_t first, uint32_t end, insole_rng_t *rng)
+{
+    if (weighing->news.has_stride) {
+        walk(weighing, plan, &cloud->particles[first], &cloud->particles[end], rng);
+    }
+    const insole_spot_t since = weighing->news.since;
+    for (uint32_t i = first; i < end && weighing->news.has_scan; i++) {
+        const insole_particle_t *particle = &cloud->particles[i];
+        if (insole_particle_lives(particle)) {
+            insole_rss_field_need(field, particle->x_m - since.x_m, particle->y_m - since.y_m);
+        }
     }
 }
 
@@ -69,18 +78,22 @@ static insole_real_t log_of_scan(const insole_weighing_t *weighing, const insole
 }
 
 void insole_weighing_weigh(insole_weighing_t *weighing, const insole_rss_field_t *field,
-                           insole_particle_t *particle, uint32_t number)
+                           const insole_cloud_t *cloud, uint32_t first, uint32_t end)
 {
     const insole_evidence_t *news = &weighing->news;
-    if (!insole_particle_lives(particle)) {
-        return;
+    const bool is_placed = news->has_position || news->ranges > 0;
+    for (uint32_t i = first; i < end; i++) {
+        insole_particle_t *particle = &cloud->particles[i];
+        if (insole_particle_lives(particle)) {
+            insole_real_t log_weight = particle->log_weight - weighing->common_log;
+            if (is_placed) { /* [TwoOrder (8)] */
+                log_weight += insole_evidence_log_weight(news, particle->x_m, particle->y_m);
+            }
+            if (news->has_scan) {
+                log_weight += weighing->scan_power * log_of_scan(weighing, field, particle);
+            }
+            particle->log_weight = log_weight;
+            insole_weighing_note(weighing, particle, i);
+        }
     }
-    particle->log_weight -= weighing->common_log; /* [TwoOrder (8)] */
-    if (news->has_position || news->ranges > 0) {
-        particle->log_weight += insole_evidence_log_weight(news, particle->x_m, particle->y_m);
-    }
-    if (news->has_scan) {
-        particle->log_weight += weighing->scan_power * log_of_scan(weighing, field, particle);
-    }
-    insole_weighing_note(weighing, particle, number);
 }

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #define ZERO INSOLE_R(0.0)
+#define HALF INSOLE_R(0.5)
 
 /* ---- a segment and a wall ---- */
 
@@ -18,12 +19,7 @@ typedef struct {
     insole_real_t x_low_m, x_high_m, y_low_m, y_high_m;
 } box_t;
 
-/* What a way can touch. */
-typedef struct {
-    box_t box;
-    insole_real_t slack_m2; /* for the side of a point as seen along the way */
-} reach_t;
-
+/* For the side of a point as seen along a way or wall. */
 static insole_real_t slack_m2(insole_real_t dx_m, insole_real_t dy_m)
 {
     return INSOLE_FLOOR_PLAN_TOUCH_M * insole_sqrt(dx_m * dx_m + dy_m * dy_m);
@@ -37,12 +33,6 @@ static box_t box_around(const way_t *way, insole_real_t margin_m)
     return box;
 }
 
-static reach_t reach_of(const way_t *way)
-{
-    reach_t reach = {box_around(way, INSOLE_FLOOR_PLAN_TOUCH_M), slack_m2(way->dx_m, way->dy_m)};
-    return reach;
-}
-
 /* Twice the area between the way and a point: positive when the point lies left of the way. Walls
  * that share a corner get the same bits for it, so that no way slips between them. */
 static insole_real_t side_of_point(const way_t *way, insole_real_t x_m, insole_real_t y_m)
@@ -50,7 +40,6 @@ static insole_real_t side_of_point(const way_t *way, insole_real_t x_m, insole_r
     return way->dx_m * (y_m - way->y_m) - way->dy_m * (x_m - way->x_m);
 }
 
-/* The slack of a wall, for the side of a point as seen along it. */
 static insole_real_t wall_slack_m2(const insole_wall_t *wall)
 {
     return slack_m2(wall->x1_m - wall->x0_m, wall->y1_m - wall->y0_m);
@@ -68,14 +57,17 @@ static bool is_beside(const box_t *box, const insole_wall_t *wall)
 }
 
 /* Two segments are apart when a line along x, y or one of them separates them. */
-static bool touches(const way_t *way, const reach_t *reach, const insole_wall_t *wall)
+static bool touches(const way_t *way, const box_t *reach, const insole_wall_t *wall)
 {
-    if (is_beside(&reach->box, wall) ||
-        both_outside(-reach->slack_m2, reach->slack_m2, side_of_point(way, wall->x0_m, wall->y0_m),
+    if (is_beside(reach, wall)) {
+        return false;
+    }
+    insole_real_t slack = slack_m2(way->dx_m, way->dy_m);
+    if (both_outside(-slack, slack, side_of_point(way, wall->x0_m, wall->y0_m),
                      side_of_point(way, wall->x1_m, wall->y1_m))) {
         return false;
     }
-    insole_real_t slack = wall_slack_m2(wall);
+    slack = wall_slack_m2(wall);
     return !both_outside(-slack, slack, insole_wall_side(wall, way->x_m, way->y_m),
                          insole_wall_side(wall, way->x_m + way->dx_m, way->y_m + way->dy_m));
 }
@@ -91,17 +83,21 @@ static bool straddles(const way_t *way, const insole_wall_t *wall)
 /* ---- the scan of the cells along a way, row by row ---- */
 
 typedef struct {
-    int32_t row, last_row;             /* the row being scanned, and the last */
-    int32_t left, right;               /* its columns that the way can touch */
-    int32_t block_left, block_right;   /* those of the whole way */
-    bool is_block;                     /* all columns in every row: nothing to be won by less */
-    insole_real_t x_m, y_m, dx_per_dy; /* the endless line along the way */
+    int32_t row, last_row;           /* the row being scanned, and the last */
+    int32_t left, right;             /* its columns that the way can touch */
+    int32_t block_left, block_right; /* those of the whole way */
+    bool is_block;                   /* all columns in every row: nothing to be won by less */
+    insole_real_t column, at_row;    /* where the way begins; row 0 is in its middle */
+    insole_real_t columns_per_row;   /* where it goes from there, */
+    insole_real_t columns_aside;     /* and how far it gets from its middle within a row */
 } scan_t;
 
+/* Coordinates in range, times at most four cells in a metre, fit. */
 static int32_t index_of(insole_real_t x_m, insole_real_t cells_per_m, int32_t count)
 {
-    insole_real_t last = (insole_real_t)count - INSOLE_R(0.5);
-    return (int32_t)insole_max(ZERO, insole_min(x_m * cells_per_m, last));
+    int32_t index = (int32_t)(x_m * cells_per_m);
+    index = index < count ? index : count - 1;
+    return index > 0 ? index : 0;
 }
 
 /* A row's cells lie side by side, and so do their entries. */
@@ -111,18 +107,26 @@ static const insole_floor_plan_cell_t *first_cell(const insole_floor_plan_t *pla
 }
 
 /* The columns in which the way can touch the cells of the scan's row. */
-static inline void narrow_columns(scan_t *scan, const insole_floor_plan_t *plan)
+static inline void narrow_columns(scan_t *scan)
 {
-    insole_real_t low_m = (insole_real_t)scan->row * plan->cell_m - INSOLE_FLOOR_PLAN_TOUCH_M;
-    insole_real_t high_m = low_m + plan->cell_m + INSOLE_R(2.0) * INSOLE_FLOOR_PLAN_TOUCH_M;
-    insole_real_t x0_m = scan->x_m + (low_m - scan->y_m) * scan->dx_per_dy;
-    insole_real_t x1_m = scan->x_m + (high_m - scan->y_m) * scan->dx_per_dy;
-    int32_t left = index_of(insole_min(x0_m, x1_m) - INSOLE_FLOOR_PLAN_TOUCH_M, plan->cells_per_m,
-                            plan->columns);
-    int32_t right = index_of(insole_max(x0_m, x1_m) + INSOLE_FLOOR_PLAN_TOUCH_M, plan->cells_per_m,
-                             plan->columns);
-    scan->left = left > scan->block_left ? left : scan->block_left;
-    scan->right = right < scan->block_right ? right : scan->block_right;
+    insole_real_t first = (insole_real_t)scan->block_left, last = (insole_real_t)scan->block_right;
+    insole_real_t rows = (insole_real_t)scan->row - scan->at_row;
+    insole_real_t middle = scan->column + rows * scan->columns_per_row;
+    insole_real_t left = middle - scan->columns_aside, right = middle + scan->columns_aside;
+    scan->left = (int32_t)insole_max(first, insole_min(left, last));
+    scan->right = (int32_t)insole_max(first, insole_min(right, last));
+}
+
+/* The columns of each row in which the way can touch cells, where they are not all of them. */
+static inline void begin_columns(scan_t *scan, const insole_floor_plan_t *plan, const way_t *way)
+{
+    insole_real_t aslant = way->dx_m / way->dy_m, touch = INSOLE_FLOOR_PLAN_TOUCH_M;
+    scan->column = way->x_m * plan->cells_per_m;
+    scan->at_row = way->y_m * plan->cells_per_m - HALF;
+    scan->columns_per_row = aslant;
+    scan->columns_aside = HALF * insole_abs(aslant) +
+                          touch * plan->cells_per_m * (INSOLE_R(1.0) + insole_abs(aslant));
+    narrow_columns(scan);
 }
 
 /* Begins with the lowest row. */
@@ -133,27 +137,24 @@ static inline scan_t begin_scan(const insole_floor_plan_t *plan, const way_t *wa
     scan.last_row = index_of(box->y_high_m, plan->cells_per_m, plan->rows);
     scan.left = scan.block_left = index_of(box->x_low_m, plan->cells_per_m, plan->columns);
     scan.right = scan.block_right = index_of(box->x_high_m, plan->cells_per_m, plan->columns);
-    scan.is_block =
-        scan.right - scan.left <= 1 || insole_abs(way->dy_m) < INSOLE_FLOOR_PLAN_TOUCH_M;
-    scan.x_m = way->x_m;
-    scan.y_m = way->y_m;
-    scan.dx_per_dy = ZERO;
+    scan.is_block = scan.right - scan.left <= 1 || scan.row == scan.last_row ||
+                    insole_abs(way->dy_m) < INSOLE_FLOOR_PLAN_TOUCH_M;
+    scan.column = scan.at_row = scan.columns_per_row = scan.columns_aside = ZERO;
     if (!scan.is_block) {
-        scan.dx_per_dy = way->dx_m / way->dy_m;
-        narrow_columns(&scan, plan);
+        begin_columns(&scan, plan, way);
     }
     return scan;
 }
 
 /* Goes on to the next row; false after the last. */
-static bool next_row(scan_t *scan, const insole_floor_plan_t *plan)
+static inline bool next_row(scan_t *scan)
 {
     if (scan->row >= scan->last_row) {
         return false;
     }
     scan->row++;
     if (!scan->is_block) {
-        narrow_columns(scan, plan);
+        narrow_columns(scan);
     }
     return true;
 }
@@ -174,15 +175,16 @@ static way_t way_in(const insole_floor_plan_t *plan, insole_real_t x0_m, insole_
     return way;
 }
 
-bool insole_floor_plan_crosses(const insole_floor_plan_t *plan, insole_real_t x0_m,
-                               insole_real_t y0_m, insole_real_t x1_m, insole_real_t y1_m)
+INSOLE_FLAT bool insole_floor_plan_crosses(const insole_floor_plan_t *plan, insole_real_t x0_m,
+                                           insole_real_t y0_m, insole_real_t x1_m,
+                                           insole_real_t y1_m)
 {
     if (plan == NULL || !in_range(x0_m, y0_m, x1_m, y1_m)) {
         return true;
     }
     way_t way = way_in(plan, x0_m, y0_m, x1_m, y1_m);
-    reach_t reach = reach_of(&way);
-    scan_t scan = begin_scan(plan, &way, &reach.box);
+    box_t reach = box_around(&way, INSOLE_FLOOR_PLAN_TOUCH_M);
+    scan_t scan = begin_scan(plan, &way, &reach);
     do {
         const insole_floor_plan_cell_t *cells = first_cell(plan, scan.row);
         const uint16_t *end = &plan->entries[cells[scan.right + 1].begin];
@@ -191,7 +193,7 @@ bool insole_floor_plan_crosses(const insole_floor_plan_t *plan, insole_real_t x0
                 return true;
             }
         }
-    } while (next_row(&scan, plan));
+    } while (next_row(&scan));
     return false;
 }
 
@@ -204,6 +206,11 @@ static int32_t winding_through(const way_t *way, const insole_wall_t *edge)
     bool before = insole_wall_side(edge, way->x_m, way->y_m) > ZERO;
     bool after = insole_wall_side(edge, way->x_m + way->dx_m, way->y_m + way->dy_m) > ZERO;
     return after - before;
+}
+
+static bool is_walkable(uint8_t outlines, uint8_t holes)
+{
+    return outlines != 0u && holes == 0u;
 }
 
 /* From the reference point of a cell, of which it is known, to a point in the cell. */
@@ -219,7 +226,7 @@ static bool leads_inside(const insole_floor_plan_t *plan, const way_t *way,
             *windings += winding_through(way, &plan->walls[*i]);
         }
     }
-    return (uint8_t)outlines != 0 && (uint8_t)holes == 0;
+    return is_walkable((uint8_t)outlines, (uint8_t)holes);
 }
 
 bool insole_floor_plan_inside(const insole_floor_plan_t *plan, insole_real_t x_m, insole_real_t y_m)
@@ -234,53 +241,62 @@ bool insole_floor_plan_inside(const insole_floor_plan_t *plan, insole_real_t x_m
         return false;
     }
     int32_t i = (int32_t)column, j = (int32_t)row;
+    const insole_floor_plan_cell_t *cell = first_cell(plan, j) + i;
+    if (cell[0].begin == cell[1].begin) {
+        return is_walkable(cell->outlines, cell->holes); /* most have no walls */
+    }
     way_t way = {((insole_real_t)i + plan->spot_x) * plan->cell_m,
                  ((insole_real_t)j + plan->spot_y) * plan->cell_m, ZERO, ZERO};
     way.dx_m = x - way.x_m;
     way.dy_m = y - way.y_m;
-    return leads_inside(plan, &way, first_cell(plan, j) + i);
+    return leads_inside(plan, &way, cell);
 }
 
 /* Share of the way at which it passes the wall to its other side; negative when it does not. */
-static insole_real_t passing_share(const way_t *way, const insole_wall_t *wall)
+static inline insole_real_t passing_share(const way_t *way, const insole_wall_t *wall)
 {
-    if (straddles(way, wall)) {
-        insole_real_t slack = wall_slack_m2(wall);
-        insole_real_t from = insole_wall_side(wall, way->x_m, way->y_m);
-        insole_real_t to = insole_wall_side(wall, way->x_m + way->dx_m, way->y_m + way->dy_m);
-        if ((from > slack && to < -slack) || (from < -slack && to > slack)) {
-            return from / (from - to);
-        }
-    }
-    return INSOLE_R(-1.0);
+    insole_real_t slack = wall_slack_m2(wall);
+    insole_real_t from = insole_wall_side(wall, way->x_m, way->y_m);
+    insole_real_t to = insole_wall_side(wall, way->x_m + way->dx_m, way->y_m + way->dy_m);
+    bool passes = (from > slack && to < -slack) || (from < -slack && to > slack);
+    return passes ? from / (from - to) : INSOLE_R(-1.0);
 }
 
 /* A wall stands in several cells; the cell in which the way passes it counts it. */
-static bool owns(const insole_floor_plan_t *plan, const scan_t *scan, int32_t column,
-                 insole_real_t x_m, insole_real_t y_m)
+static inline bool owns(const insole_floor_plan_t *plan, const scan_t *scan, uint32_t entry,
+                        insole_real_t x_m, insole_real_t y_m)
 {
-    return index_of(x_m, plan->cells_per_m, plan->columns) == column &&
-           index_of(y_m, plan->cells_per_m, plan->rows) == scan->row;
+    const insole_floor_plan_cell_t *cell =
+        first_cell(plan, scan->row) + index_of(x_m, plan->cells_per_m, plan->columns);
+    return index_of(y_m, plan->cells_per_m, plan->rows) == scan->row && entry >= cell[0].begin &&
+           entry < cell[1].begin;
 }
 
-static void count_passed(const insole_floor_plan_t *plan, const way_t *way, const scan_t *scan,
-                         int32_t column, insole_walls_between_t *between)
+/* In the scan's row. */
+static inline void count_passed(const insole_floor_plan_t *plan, const way_t *way,
+                                const scan_t *scan, insole_walls_between_t *between)
 {
-    const insole_floor_plan_cell_t *cell = first_cell(plan, scan->row) + column;
-    for (uint32_t i = cell[0].begin; i < cell[1].begin; i++) {
+    const insole_floor_plan_cell_t *cells = first_cell(plan, scan->row);
+    uint32_t end = cells[scan->right + 1].begin;
+    for (uint32_t i = cells[scan->left].begin; i < end; i++) {
         const insole_wall_t *wall = &plan->walls[plan->entries[i]];
+        if (!straddles(way, wall)) {
+            continue;
+        }
         insole_real_t share = passing_share(way, wall);
         if (share >= ZERO &&
-            owns(plan, scan, column, way->x_m + share * way->dx_m, way->y_m + share * way->dy_m)) {
+            owns(plan, scan, i, way->x_m + share * way->dx_m, way->y_m + share * way->dy_m)) {
             between->count++;
             between->loss_db += wall->loss_db;
         }
     }
 }
 
-insole_status_t insole_floor_plan_walls_between(const insole_floor_plan_t *plan, insole_real_t x0_m,
-                                                insole_real_t y0_m, insole_real_t x1_m,
-                                                insole_real_t y1_m, insole_walls_between_t *between)
+INSOLE_FLAT insole_status_t insole_floor_plan_walls_until(const insole_floor_plan_t *plan,
+                                                          insole_real_t x0_m, insole_real_t y0_m,
+                                                          insole_real_t x1_m, insole_real_t y1_m,
+                                                          insole_real_t enough_db,
+                                                          insole_walls_between_t *between)
 {
     if (plan == NULL || between == NULL) {
         return INSOLE_ERR_NULL;
@@ -291,14 +307,19 @@ insole_status_t insole_floor_plan_walls_between(const insole_floor_plan_t *plan,
     way_t way = way_in(plan, x0_m, y0_m, x1_m, y1_m);
     box_t box = box_around(&way, INSOLE_FLOOR_PLAN_TOUCH_M);
     scan_t scan = begin_scan(plan, &way, &box);
-    between->count = 0;
-    between->loss_db = ZERO;
+    insole_walls_between_t passed = {0, ZERO};
     do {
-        for (int32_t column = scan.left; column <= scan.right; column++) {
-            count_passed(plan, &way, &scan, column, between);
-        }
-    } while (next_row(&scan, plan));
+        count_passed(plan, &way, &scan, &passed);
+    } while (passed.loss_db < enough_db && next_row(&scan));
+    *between = passed;
     return INSOLE_OK;
+}
+
+insole_status_t insole_floor_plan_walls_between(const insole_floor_plan_t *plan, insole_real_t x0_m,
+                                                insole_real_t y0_m, insole_real_t x1_m,
+                                                insole_real_t y1_m, insole_walls_between_t *between)
+{
+    return insole_floor_plan_walls_until(plan, x0_m, y0_m, x1_m, y1_m, INSOLE_REAL_MAX, between);
 }
 
 /* Squared distance from a point to a wall. */

@@ -106,8 +106,12 @@ INSOLE_COLD insole_status_t insole_rss_field_hear(insole_rss_field_t *field,
         return INSOLE_ERR_STATE;
     }
     keep_strongest(field, building, readings, count);
-    insole_wall_losses_reserve(&field->losses, field->heard_id, field->heard_count,
-                               field->heard_slot);
+    uint32_t slot[INSOLE_RSS_FIELD_HEARD];
+    insole_wall_losses_limit(&field->losses, building->propagation->walls_max_db);
+    insole_wall_losses_reserve(&field->losses, field->heard_id, field->heard_count, slot);
+    for (uint32_t k = 0; k < field->heard_count; k++) {
+        field->heard_slot[k] = (uint8_t)slot[k];
+    }
     const insole_rss_fix_config_t *config =
         building->rss_fix ? building->rss_fix : &insole_rss_fix_defaults;
     field->points_elsewhere =
@@ -167,11 +171,11 @@ INSOLE_FLAT void insole_rss_field_need(insole_rss_field_t *field, insole_real_t 
     if (!field) {
         return;
     }
-    insole_rss_node_t *node = &field->node[cell_at(field, x_m, y_m).corner];
-    node[0].needed = true;
-    node[1].needed = true;
-    node[SIDE].needed = true;
-    node[SIDE + 1].needed = true;
+    bool *needed = &field->needed[cell_at(field, x_m, y_m).corner];
+    needed[0] = true;
+    needed[1] = true;
+    needed[SIDE] = true;
+    needed[SIDE + 1] = true;
 }
 
 INSOLE_COLD insole_status_t insole_rss_field_place(insole_rss_field_t *field,
@@ -198,10 +202,9 @@ INSOLE_COLD insole_status_t insole_rss_field_place(insole_rss_field_t *field,
     field->next_node = 0;
     field->next_heard = 0;
     field->placed = true;
-    for (uint32_t n = 0; n <= NODES; n++) {
-        memset(&field->node[n], 0, sizeof field->node[n]);
-    }
-    field->node[NODES].needed = field->points_elsewhere;
+    memset(field->node, 0, sizeof field->node);
+    memset(field->needed, 0, sizeof field->needed);
+    field->needed[NODES] = field->points_elsewhere;
     insole_rss_field_need(field, around->x_m, around->y_m);
     return INSOLE_OK;
 }
@@ -219,7 +222,8 @@ static insole_real_t wall_loss_db(insole_rss_field_t *field, const insole_floor_
 {
     return node < NODES
                ? insole_wall_losses_at(&field->losses, plan, node, field->heard_slot[k], ap)
-               : insole_wall_losses_between(plan, spot_of_node(field, node), ap);
+               : insole_wall_losses_between(plan, spot_of_node(field, node), ap,
+                                            field->losses.limit_db);
 }
 
 /* Cosines of the access point's bearing as seen by each view: ahead, left, behind, right. */
@@ -278,7 +282,7 @@ bool insole_rss_field_work(insole_rss_field_t *field, const insole_building_t *b
         return false;
     }
     while (*pairs > 0 && !is_complete(field)) {
-        if (!field->node[field->next_node].needed) {
+        if (!field->needed[field->next_node]) {
             field->next_node++;
             continue;
         }

@@ -2,24 +2,25 @@
 #include "insole/place/wall_losses.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #define ZERO          INSOLE_R(0.0)
 #define HALF          INSOLE_R(0.5)
-#define NOT_COUNTED   INSOLE_R(-1.0)
+#define STEP_MIN_DB   INSOLE_R(0.125)
 #define SPACING_MIN_M INSOLE_R(0.01)
 
 enum {
     SIDE = INSOLE_WALL_LOSSES_SIDE,
     NODES = INSOLE_WALL_LOSSES_NODES,
-    SLOTS = INSOLE_WALL_LOSSES_SLOTS
+    SLOTS = INSOLE_WALL_LOSSES_SLOTS,
+    STEPS_MAX = 254,
+    NOT_COUNTED = 255
 };
 
 static void give_slot(insole_wall_losses_slot_t *slot, uint32_t id)
 {
     slot->id = id;
-    for (uint32_t place = 0; place < NODES; place++) {
-        slot->loss_db[place] = NOT_COUNTED;
-    }
+    memset(slot->steps, NOT_COUNTED, sizeof slot->steps);
 }
 
 INSOLE_COLD insole_status_t insole_wall_losses_init(insole_wall_losses_t *losses)
@@ -30,9 +31,33 @@ INSOLE_COLD insole_status_t insole_wall_losses_init(insole_wall_losses_t *losses
     for (uint32_t s = 0; s < SLOTS; s++) {
         give_slot(&losses->slot[s], UINT32_MAX);
     }
+    losses->limit_db = STEP_MIN_DB * (insole_real_t)STEPS_MAX;
+    losses->step_db = STEP_MIN_DB;
     losses->spacing_m = INSOLE_R(1.0);
     losses->column = 0;
     losses->row = 0;
+    return INSOLE_OK;
+}
+
+insole_status_t insole_wall_losses_limit(insole_wall_losses_t *losses, insole_real_t limit_db)
+{
+    if (!losses) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!(limit_db >= ZERO && limit_db <= INSOLE_WALL_LOSSES_MOST_DB)) {
+        return INSOLE_ERR_VALUE;
+    }
+    if (limit_db >= losses->limit_db && limit_db <= losses->limit_db) {
+        return INSOLE_OK;
+    }
+    for (uint32_t s = 0; s < SLOTS; s++) {
+        give_slot(&losses->slot[s], losses->slot[s].id);
+    }
+    losses->limit_db = limit_db;
+    losses->step_db = STEP_MIN_DB;
+    while (losses->step_db * (insole_real_t)STEPS_MAX < limit_db) {
+        losses->step_db *= INSOLE_R(2.0); /* most losses stay whole numbers of steps */
+    }
     return INSOLE_OK;
 }
 
@@ -69,7 +94,7 @@ static int32_t row_of(const insole_wall_losses_t *losses, uint32_t node)
 static void forget(insole_wall_losses_t *losses, uint32_t place)
 {
     for (uint32_t s = 0; s < SLOTS; s++) {
-        losses->slot[s].loss_db[place] = NOT_COUNTED;
+        losses->slot[s].steps[place] = NOT_COUNTED;
     }
 }
 
@@ -165,12 +190,12 @@ INSOLE_COLD insole_status_t insole_wall_losses_reserve(insole_wall_losses_t *los
 }
 
 insole_real_t insole_wall_losses_between(const insole_floor_plan_t *plan, insole_spot_t from,
-                                         insole_spot_t to)
+                                         insole_spot_t to, insole_real_t limit_db)
 {
     insole_walls_between_t walls;
-    return plan && insole_floor_plan_walls_between(plan, from.x_m, from.y_m, to.x_m, to.y_m,
-                                                   &walls) == INSOLE_OK
-               ? walls.loss_db
+    return plan && insole_floor_plan_walls_until(plan, from.x_m, from.y_m, to.x_m, to.y_m, limit_db,
+                                                 &walls) == INSOLE_OK
+               ? insole_min(walls.loss_db, limit_db)
                : ZERO;
 }
 
@@ -181,9 +206,11 @@ insole_real_t insole_wall_losses_at(insole_wall_losses_t *losses, const insole_f
         return ZERO;
     }
     uint32_t place = place_of(column_of(losses, node), row_of(losses, node));
-    insole_real_t *loss_db = &losses->slot[slot].loss_db[place];
-    if (*loss_db < ZERO) {
-        *loss_db = insole_wall_losses_between(plan, insole_wall_losses_spot(losses, node), ap);
+    uint8_t *steps = &losses->slot[slot].steps[place];
+    if (*steps == NOT_COUNTED) {
+        insole_spot_t spot = insole_wall_losses_spot(losses, node);
+        insole_real_t loss_db = insole_wall_losses_between(plan, spot, ap, losses->limit_db);
+        *steps = (uint8_t)(loss_db / losses->step_db + HALF);
     }
-    return *loss_db;
+    return (insole_real_t)*steps * losses->step_db;
 }

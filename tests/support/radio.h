@@ -32,17 +32,22 @@ static inline void radio_scatter(radio_t *r, insole_rng_t *rng, uint32_t count, 
 {
     r->propagation = insole_propagation_defaults;
     for (uint32_t i = 0; i < count; i++) {
-        radio_put(r, i, x0 + draw_uniform(rng, 0.0, 40.0), y0 + draw_uniform(rng, 0.0, 30.0));
+        double y = y0 + draw_uniform(rng, 0.0, 30.0), x = x0 + draw_uniform(rng, 0.0, 40.0);
+        radio_put(r, i, x, y);
         r->aps[i].exponent = (insole_real_t)draw_uniform(rng, 1.8, 2.6);
     }
     insole_building_t building = {&r->propagation, r->aps, count, NULL, NULL};
     r->building = building;
 }
 
-/** Random walls among them. */
+/** Random walls among them, whose losses are kept as they are: of whole eighths of a decibel. */
 static inline void radio_wall_in(radio_t *r, insole_rng_t *rng, double x0, double y0)
 {
     draw_random(&r->drawing, rng, 60);
+    for (uint32_t i = 0; i < r->drawing.line_count; i++) {
+        insole_real_t *loss_db = &r->drawing.lines[i].loss_db;
+        *loss_db = (insole_real_t)(uint32_t)(INSOLE_R(8.0) * *loss_db) / INSOLE_R(8.0);
+    }
     draw_move(&r->drawing, 0.0, x0, y0);
     ck_assert_int_eq(draw_build(&r->drawing), INSOLE_OK);
     r->building.plan = &r->drawing.plan;

@@ -284,16 +284,18 @@ START_TEST(copies_go_aside_by_a_share)
     enum { N = 40000 };
     insole_cloud_source_t s = source_at(90.0, 90.0, 4.0, 1.0, 0.25);
     s.sigma_offset_rad = INSOLE_R(0.2);
+    insole_cloud_aside_t aside = insole_cloud_source_aside(&s, INSOLE_R(0.5));
     moments_t m = {0, 0, 0, 0, 0};
     double turned2 = 0.0, leaning = 0.0;
     insole_rng_seed(&rng, 6u);
     for (int i = 0; i < N; i++) {
         insole_particle_t p = {3, 4, 1, INSOLE_R(1.1), INSOLE_R(-0.7)};
-        insole_cloud_source_spread(&s, INSOLE_R(0.5), &p, NULL, &rng);
+        insole_cloud_source_spread(&aside, &p, NULL, &rng);
         double turned = (double)p.offset_rad - 1.0;
         take(&m, (double)p.x_m - 3.0, (double)p.y_m - 4.0, 1.0 / N);
         turned2 += turned * turned / N;
         leaning += turned * ((double)p.x_m - 3.0) / N;
+        ck_assert(fabs((double)p.x_m - 3.0) <= 1.001 * sqrt(3.0)); /* no copy is thrown far */
         ck_assert(p.scale == INSOLE_R(1.1) && p.log_weight == INSOLE_R(-0.7));
     }
     ASSERT_NEAR(m.x, 0.0, 0.02, "m");
@@ -316,13 +318,14 @@ START_TEST(no_copy_goes_through_a_wall)
     ck_assert_int_eq(draw_build(&drawing), INSOLE_OK);
     insole_cloud_source_t s = source_at(0.0, 0.0, 4.0, 0.0, 4.0);
     s.sigma_offset_rad = INSOLE_R(0.1);
+    insole_cloud_aside_t aside = insole_cloud_source_aside(&s, 1);
     for (int i = 0; i < 5000; i++) {
         insole_particle_t p = {(insole_real_t)draw_uniform(&rng, 0.0, 40.0),
                                (insole_real_t)draw_uniform(&rng, 0.0, 30.0), 0, 1, 0};
         insole_particle_t before = p, free = p;
         insole_rng_t same = rng;
-        insole_cloud_source_spread(&s, 1, &free, NULL, &same);
-        insole_cloud_source_spread(&s, 1, &p, &drawing.plan, &rng);
+        insole_cloud_source_spread(&aside, &free, NULL, &same);
+        insole_cloud_source_spread(&aside, &p, &drawing.plan, &rng);
         segment_t way = {(double)before.x_m, (double)before.y_m, (double)free.x_m,
                          (double)free.y_m};
         double clear = drawing_distance(&drawing, way);

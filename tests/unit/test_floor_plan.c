@@ -300,6 +300,22 @@ static bool count_walls(segment_t ray, uint32_t *count, double *loss_db)
     return true;
 }
 
+/* Who asks for no more than a limit is told as much as there is up to it. */
+static void check_walls_until(segment_t s, const insole_walls_between_t *all)
+{
+    insole_walls_between_t until;
+    insole_real_t enough_db = (insole_real_t)draw_uniform(&rng, 0.0, 1.2) * all->loss_db;
+    ck_assert_int_eq(insole_floor_plan_walls_until(&drawing.plan, (insole_real_t)s.x0,
+                                                   (insole_real_t)s.y0, (insole_real_t)s.x1,
+                                                   (insole_real_t)s.y1, enough_db, &until),
+                     INSOLE_OK);
+    if (until.loss_db < enough_db) {
+        ck_assert_uint_eq(until.count, all->count);
+        ASSERT_NEAR(until.loss_db, all->loss_db, 0.0, "dB");
+    }
+    ck_assert(until.count <= all->count && until.loss_db <= all->loss_db);
+}
+
 /* The number of walls, or -1 where none can tell. */
 static int check_walls_between(segment_t s)
 {
@@ -316,6 +332,7 @@ static int check_walls_between(segment_t s)
     ck_assert_msg(between.count == count, "%.9g %.9g %.9g %.9g: %u walls, expected %u", s.x0, s.y0,
                   s.x1, s.y1, between.count, count);
     ASSERT_NEAR(between.loss_db, loss_db, 1e-4, "dB");
+    check_walls_until(s, &between);
     return (int)count;
 }
 
@@ -654,6 +671,8 @@ START_TEST(bad_input)
     ck_assert(!insole_floor_plan_inside(NULL, 1, 1));
     ck_assert_int_eq(insole_floor_plan_walls_between(NULL, 1, 1, 2, 2, &between), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_floor_plan_walls_between(plan, 1, 1, 2, 2, NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_floor_plan_walls_until(NULL, 1, 1, 2, 2, 9, &between), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_floor_plan_walls_until(plan, 1, 1, 2, 2, 9, NULL), INSOLE_ERR_NULL);
     ck_assert(!insole_floor_plan_is_closed(NULL, 1, 1, 1));
     ck_assert(insole_floor_plan_is_closed(plan, (insole_real_t)NAN, 1, 1));
     ck_assert(insole_floor_plan_is_closed(plan, 1, INSOLE_R(1e30), 1));
@@ -668,6 +687,9 @@ START_TEST(bad_input)
             ck_assert(insole_floor_plan_crosses(plan, x[0], x[1], x[2], x[3]));
             ck_assert_int_eq(
                 insole_floor_plan_walls_between(plan, x[0], x[1], x[2], x[3], &between),
+                INSOLE_ERR_VALUE);
+            ck_assert_int_eq(
+                insole_floor_plan_walls_until(plan, x[0], x[1], x[2], x[3], 9, &between),
                 INSOLE_ERR_VALUE);
             if (k < 3) {
                 ck_assert_int_eq(insole_floor_plan_clearance(plan, x[0], x[1], x[2], &distance),

@@ -75,12 +75,32 @@ static double at_node(uint32_t n, double heading_rad)
     return at((double)node_spot(n).x_m, (double)node_spot(n).y_m, heading_rad);
 }
 
+/* Walls of any loss. */
+static void wall_in_anyhow(void)
+{
+    draw_random(&radio.drawing, &rng, 60);
+    ck_assert_int_eq(draw_build(&radio.drawing), INSOLE_OK);
+    radio.building.plan = &radio.drawing.plan;
+}
+
+/* What the logarithm can be off when each of so many losses is off by a sixteenth of a decibel: the
+ * slope of the student tail is steepest at the root of its degrees of freedom. */
+static double of_rounded_losses(int aps)
+{
+    const insole_propagation_config_t *c = radio.building.propagation;
+    double dof = (double)c->tail_dof;
+    double per_db = (double)c->power * 0.5 * (dof + 1.0) / sqrt(dof) / (double)c->sigma_db;
+    return 0.0625 * per_db * aps;
+}
+
 /* At every node the sum over the access points, computed anew in double precision. */
 START_TEST(nodes_hold_the_likelihood_of_the_scan)
 {
     worst_t off = {0.0, 0.0};
     begin(1u + (uint64_t)_i, 12);
-    if (_i % 2 == 1) {
+    if (_i == 2) {
+        wall_in_anyhow();
+    } else if (_i % 2 == 1) {
         radio_wall_in(&radio, &rng, 0.0, 0.0);
     }
     for (int trial = 0; trial < 20; trial++) {
@@ -98,7 +118,7 @@ START_TEST(nodes_hold_the_likelihood_of_the_scan)
             worst_note(&off, fabs(at_node(n, heading) - expected), n);
         }
     }
-    ASSERT_WORST(off, 5e-4, "");
+    ASSERT_WORST(off, 5e-4 + (_i == 2 ? of_rounded_losses(12) : 0.0), "");
 }
 END_TEST
 
@@ -582,7 +602,7 @@ END_TEST
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("rss_field");
-    suite_add_loop(suite, "nodes by double", nodes_hold_the_likelihood_of_the_scan, 4);
+    suite_add_loop(suite, "nodes by double", nodes_hold_the_likelihood_of_the_scan, 5);
     suite_add(suite, "four views", four_views_where_no_direction_is_known);
     suite_add(suite, "between views", between_views_a_trigonometric_polynomial);
     suite_add(suite, "between nodes", between_nodes_bilinear_beyond_the_border_constant);

@@ -87,10 +87,9 @@ static void walk_leg(double *x, double *y, const double *to)
     double way = hypot(to[0] - *x, to[1] - *y), heading = atan2(to[1] - *y, to[0] - *x);
     int steps = (int)(way / length_m);
     for (int i = 0; i < steps; i++) {
-        insole_real_t along, across;
-        insole_rng_normals(&rng, &along, &across);
-        step(way / steps / scale * (1.0 + 0.05 * (double)along),
-             heading - turned_rad + 0.04 * (double)across);
+        insole_normals_t off = insole_rng_normals(&rng);
+        step(way / steps / scale * (1.0 + 0.05 * (double)off.first),
+             heading - turned_rad + 0.04 * (double)off.second);
     }
     *x = to[0];
     *y = to[1];

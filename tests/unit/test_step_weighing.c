@@ -94,17 +94,15 @@ static void take(void)
 
 static void weigh_all(void)
 {
-    for (uint32_t i = 0; i < N; i++) {
-        insole_step_weighing_weigh(&steps, &weighing, &field, &drawing.plan, &cloud, i);
-    }
+    insole_step_weighing_weigh(&steps, &drawing.plan, &cloud, 0, N);
+    insole_weighing_weigh(&weighing, &field, &cloud, 0, N);
 }
 
 /* Before the stride was told: without its noise a particle goes straight. */
 static void move_all(void)
 {
-    for (uint32_t i = 0; i < N; i++) {
-        insole_step_weighing_move(&steps, &weighing, &field, &drawing.plan, &particles[i], &rng);
-    }
+    insole_weighing_move(&weighing, &field, &drawing.plan, &cloud, 0, N, &rng);
+    insole_step_weighing_look(&steps, &drawing.plan, &cloud, 0, N);
 }
 
 /* Weight and bias of a particle by a first fix, in double: S = R + 3.5^2 I. */
@@ -187,10 +185,11 @@ START_TEST(a_step_scatters_as_it_is_set)
     begin(7u);
     tell_stride();
     take();
-    ck_assert(steps.wanders && steps.looks && steps.is_told);
+    ck_assert(weighing.stride.is_apart && steps.looks && steps.is_told);
     for (int i = 0; i < M; i++) {
         insole_particle_t p = {0, 0, INSOLE_R(-0.4), 1, 0}; /* walks along x */
-        insole_step_weighing_move(&steps, &weighing, &field, NULL, &p, &rng);
+        const insole_cloud_t one = {&p, 1, NULL, 0, NULL};
+        insole_weighing_move(&weighing, &field, NULL, &one, 0, 1, &rng);
         double is[4] = {(double)p.x_m - 0.7, (double)p.y_m, (double)p.offset_rad + 0.4,
                         (double)p.scale - 1.0};
         for (int k = 0; k < 4; k++) {
@@ -219,8 +218,9 @@ START_TEST(the_dead_are_left_alone)
     insole_particle_t before = particles[3];
     insole_spot_t bias_before = bias[3];
     insole_rng_t rng_before = rng;
-    insole_step_weighing_move(&steps, &weighing, &field, &drawing.plan, &particles[3], &rng);
-    insole_step_weighing_weigh(&steps, &weighing, &field, &drawing.plan, &cloud, 3);
+    insole_weighing_move(&weighing, &field, &drawing.plan, &cloud, 3, 4, &rng);
+    insole_step_weighing_look(&steps, &drawing.plan, &cloud, 3, 4);
+    insole_step_weighing_weigh(&steps, &drawing.plan, &cloud, 3, 4);
     ck_assert_mem_eq(&particles[3], &before, sizeof before);
     ck_assert_mem_eq(&bias[3], &bias_before, sizeof bias_before);
     ck_assert_mem_eq(&rng, &rng_before, sizeof rng);
@@ -242,10 +242,10 @@ START_TEST(nothing_told_changes_nothing)
     ck_assert_int_eq(insole_step_weighing_begin(&steps, &config, &news, true, false), INSOLE_OK);
     tell_stride();
     ck_assert_int_eq(insole_step_weighing_begin(&steps, &config, &news, true, false), INSOLE_OK);
-    ck_assert(!steps.looks && steps.wanders);
+    ck_assert(!steps.looks && !steps.is_told && weighing.stride.is_apart);
     config.scatter = INSOLE_SCATTER_SHARED;
-    ck_assert_int_eq(insole_step_weighing_begin(&steps, &config, &news, true, false), INSOLE_OK);
-    ck_assert(!steps.is_told);
+    tell_stride();
+    ck_assert(!weighing.stride.is_apart);
 }
 END_TEST
 
@@ -262,7 +262,7 @@ START_TEST(a_fix_without_a_step_knows_the_last_heading)
     insole_spot_t b = {0, 0}, expected = {0, 0};
     particles[0] = p;
     bias[0] = b;
-    insole_step_weighing_weigh(&steps, &weighing, &field, NULL, &cloud, 0);
+    insole_step_weighing_weigh(&steps, NULL, &cloud, 0, 1);
     ASSERT_NEAR(particles[0].log_weight, fix_by_double(&p, 0.4, &expected), 1e-5, "");
     ASSERT_NEAR(bias[0].x_m, expected.x_m, 1e-5, "m");
     ASSERT_NEAR(bias[0].y_m, expected.y_m, 1e-5, "m");

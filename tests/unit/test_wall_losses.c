@@ -94,7 +94,7 @@ static double direct(insole_spot_t from, insole_spot_t to)
 }
 
 /* Some nodes and access points are left out, so that they are counted on a later visit. */
-static void compare_with_plan(const uint32_t *ids, uint32_t count, worst_t *worst)
+static void compare_with_plan(const uint32_t *ids, uint32_t count, double limit_db, worst_t *worst)
 {
     uint32_t slots[SLOTS];
     reserve(ids, count, slots);
@@ -104,11 +104,17 @@ static void compare_with_plan(const uint32_t *ids, uint32_t count, worst_t *wors
                 insole_spot_t ap = ap_of(ids[k]), node = insole_wall_losses_spot(&losses, n);
                 double loss =
                     (double)insole_wall_losses_at(&losses, &drawing.plan, n, slots[k], ap);
-                worst_note(worst, fabs(loss - direct(node, ap)), n);
+                worst_note(worst, fabs(loss - fmin(direct(node, ap), limit_db)), n);
             }
         }
     }
 }
+
+/* With limits, and what half a step is. */
+static const struct {
+    double limit_db, half_step_db;
+} limits[] = {{0.0, 0.0625},   {1.0, 0.0625}, {12.0, 0.0625}, {20.3, 0.0625},
+              {31.75, 0.0625}, {31.8, 0.125}, {63.6, 0.25},   {1000.0, 2.0}};
 
 /* A walker wanders, turns back, jumps; access points come and go; the spacing changes. */
 START_TEST(kept_losses_are_those_of_the_plan)
@@ -116,6 +122,8 @@ START_TEST(kept_losses_are_those_of_the_plan)
     worst_t off = {0.0, 0.0};
     begin(10u + (uint64_t)_i);
     build_random();
+    insole_wall_losses_limit(&losses, (insole_real_t)limits[_i].limit_db);
+    ASSERT_NEAR(losses.step_db, 2.0 * limits[_i].half_step_db, 0.0, "dB");
     double x = 20.0, y = 15.0, spacing_m = 1.0;
     for (int stride = 0; stride < 60; stride++) {
         uint32_t ids[SLOTS], count = 1u + insole_rng_bits(&rng) % SLOTS;
@@ -129,9 +137,9 @@ START_TEST(kept_losses_are_those_of_the_plan)
             spacing_m = draw_uniform(&rng, 0.5, 3.0);
         }
         ck_assert_int_eq(move_to(spacing_m, x, y), INSOLE_OK);
-        compare_with_plan(ids, count, &off);
+        compare_with_plan(ids, count, limits[_i].limit_db, &off);
     }
-    ASSERT_WORST(off, 0.0, "dB");
+    ASSERT_WORST(off, limits[_i].half_step_db + 1e-5, "dB");
 }
 END_TEST
 
@@ -169,6 +177,32 @@ START_TEST(a_node_is_counted_once_while_it_stays)
     ck_assert_uint_eq(kept_after_move(10.5, 10.5, 1.0, 4.5, 10.5), 0u);
     ck_assert_uint_eq(kept_after_move(-0.5, -0.5, 1.0, 0.5, -1.5), 25u);
     ck_assert_uint_eq(kept_after_move(10.5, 10.5, 1.4, 10.5, 10.5), 0u);
+}
+END_TEST
+
+/* All are forgotten with another limit, none with the same. */
+START_TEST(a_limit_holds_for_all_that_is_kept)
+{
+    uint32_t id = 3u, slot;
+    begin(7u);
+    draw_begin(&drawing);
+    draw_wall(&drawing, 6.0, 900.0, -500.0, 900.0, 500.0);
+    draw_wall(&drawing, 6.5, 901.0, -500.0, 901.0, 500.0);
+    ck_assert_int_eq(draw_build(&drawing), INSOLE_OK);
+    reserve(&id, 1u, &slot);
+    insole_spot_t ap = spot(1000.0, 1.0);
+    static const double told[][2] = {{12.5, 12.5}, {12.0, 12.0}, {7.0, 7.0}, {1000.0, 12.0}};
+    for (size_t i = 0; i < sizeof told / sizeof told[0]; i++) {
+        insole_real_t limit_db = (insole_real_t)told[i][0];
+        ck_assert_int_eq(insole_wall_losses_limit(&losses, limit_db), INSOLE_OK);
+        ASSERT_NEAR(insole_wall_losses_at(&losses, &drawing.plan, 5, slot, ap), told[i][1], 0.0,
+                    "dB");
+        ck_assert_int_eq(insole_wall_losses_limit(&losses, limit_db), INSOLE_OK);
+        ASSERT_NEAR(insole_wall_losses_at(&losses, NULL, 5, slot, ap), told[i][1], 0.0, "dB");
+        insole_spot_t node = insole_wall_losses_spot(&losses, 5);
+        ASSERT_NEAR(insole_wall_losses_between(&drawing.plan, node, ap, limit_db),
+                    fmin(12.5, told[i][0]), 0.0, "dB");
+    }
 }
 END_TEST
 
@@ -237,10 +271,12 @@ START_TEST(no_plan_no_loss)
     for (uint32_t n = 0; n < NODES; n++) {
         ASSERT_NEAR(insole_wall_losses_at(&losses, NULL, n, 0, spot(9.0, 9.0)), 0.0, 0.0, "dB");
     }
-    ASSERT_NEAR(insole_wall_losses_between(NULL, spot(0.0, 0.0), spot(9.0, 9.0)), 0.0, 0.0, "dB");
+    ASSERT_NEAR(insole_wall_losses_between(NULL, spot(0.0, 0.0), spot(9.0, 9.0), 20), 0.0, 0.0,
+                "dB");
     build_random();
-    ASSERT_NEAR(insole_wall_losses_between(&drawing.plan, spot(0.0, 0.0), spot((double)NAN, 9.0)),
-                0.0, 0.0, "dB");
+    ASSERT_NEAR(
+        insole_wall_losses_between(&drawing.plan, spot(0.0, 0.0), spot((double)NAN, 9.0), 20), 0.0,
+        0.0, "dB");
 }
 END_TEST
 
@@ -257,6 +293,11 @@ START_TEST(refusals_change_nothing)
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         ck_assert_int_eq(move_to(bad[i][0], bad[i][1], bad[i][2]), INSOLE_ERR_VALUE);
     }
+    static const double limits_refused[] = {-0.1, 1000.1, (double)NAN, HUGE_VAL};
+    for (size_t i = 0; i < sizeof limits_refused / sizeof limits_refused[0]; i++) {
+        ck_assert_int_eq(insole_wall_losses_limit(&losses, (insole_real_t)limits_refused[i]),
+                         INSOLE_ERR_VALUE);
+    }
     ck_assert_int_eq(insole_wall_losses_reserve(&losses, ids, SLOTS + 1, slots), INSOLE_ERR_ROOM);
     ck_assert_int_eq(insole_wall_losses_reserve(&losses, NULL, 1u, slots), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_wall_losses_reserve(&losses, ids, 1u, NULL), INSOLE_ERR_NULL);
@@ -271,6 +312,7 @@ START_TEST(nothing_happens_to_null)
 {
     uint32_t id = 1u, slot = 77u;
     ck_assert_int_eq(insole_wall_losses_init(NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_wall_losses_limit(NULL, 20), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_wall_losses_move(NULL, 1, 0, 0), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_wall_losses_reserve(NULL, &id, 1u, &slot), INSOLE_ERR_NULL);
     ck_assert_uint_eq(slot, 77u);
@@ -284,7 +326,9 @@ Suite *insole_suite(void)
     Suite *suite = suite_create("wall_losses");
     suite_add_loop(suite, "lattice of the map", nodes_are_a_lattice_of_the_map,
                    sizeof centres / sizeof centres[0]);
-    suite_add_loop(suite, "kept losses are true", kept_losses_are_those_of_the_plan, 4);
+    suite_add_loop(suite, "kept losses are true", kept_losses_are_those_of_the_plan,
+                   sizeof limits / sizeof limits[0]);
+    suite_add(suite, "limit", a_limit_holds_for_all_that_is_kept);
     suite_add(suite, "counted once", a_node_is_counted_once_while_it_stays);
     suite_add(suite, "slots are kept", access_points_keep_their_slots);
     suite_add(suite, "slots are given up", only_slots_of_others_are_given_up);

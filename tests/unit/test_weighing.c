@@ -13,6 +13,7 @@ static insole_rng_t rng;
 static insole_rss_field_t field;
 static insole_rss_t readings[RADIO_APS];
 static insole_particle_t particles[N];
+static const insole_cloud_t cloud = {particles, N, NULL, 0, NULL};
 static insole_weighing_t weighing;
 
 static insole_spot_t spot(double x, double y)
@@ -60,14 +61,10 @@ static void tell_scan(insole_spot_t since, bool has_heading)
 
 static void pass(const insole_floor_plan_t *plan)
 {
-    for (uint32_t i = 0; i < N; i++) {
-        insole_weighing_move(&weighing, &field, plan, &particles[i], &rng);
-    }
+    insole_weighing_move(&weighing, &field, plan, &cloud, 0, N, &rng);
     uint32_t pairs = 1u << 20;
     insole_rss_field_work(&field, &radio.building, &pairs);
-    for (uint32_t i = 0; i < N; i++) {
-        insole_weighing_weigh(&weighing, &field, &particles[i], i);
-    }
+    insole_weighing_weigh(&weighing, &field, &cloud, 0, N);
 }
 
 /* The same scan, computed at every node whether needed or not. */
@@ -189,13 +186,13 @@ START_TEST(a_plan_kills_as_it_is_told_to)
         particles[0].x_m = (insole_real_t)ways[_i].x;
         particles[0].y_m = (insole_real_t)ways[_i].y;
         particles[0].offset_rad = 0;
-        insole_weighing_move(&weighing, &field, &radio.drawing.plan, &particles[0], &rng);
+        insole_weighing_move(&weighing, &field, &radio.drawing.plan, &cloud, 0, 1, &rng);
         ck_assert_msg(insole_particle_lives(&particles[0]) != ways[_i].dies[walls], "%s, %d",
                       ways[_i].what, walls);
         begin(4u);
         weighing.walls = (insole_walls_t)walls;
         tell_stride(ways[_i].length_m, ways[_i].heading_rad);
-        insole_weighing_move(&weighing, &field, NULL, &particles[0], &rng);
+        insole_weighing_move(&weighing, &field, NULL, &cloud, 0, 1, &rng);
         ck_assert(insole_particle_lives(&particles[0]));
     }
 }
@@ -215,6 +212,40 @@ START_TEST(the_dead_stay_dead_and_where_they_are)
     ck_assert_mem_eq(&particles[3], &before, sizeof before);
     ck_assert_mem_eq(&rng, &rng_before, sizeof rng);
     ck_assert(!insole_weighing_has_survivors(&weighing));
+}
+END_TEST
+
+/* A part at a time gives the bits of all at once, and the others stay as they are. */
+START_TEST(parts_make_the_whole)
+{
+    static insole_particle_t whole[N], before[N];
+    begin(9u);
+    memcpy(before, particles, sizeof before);
+    insole_rng_t rng_before = rng;
+    tell_stride(1.4, 0.2);
+    weighing.stride.is_apart = _i > 0;
+    weighing.stride.apart_wander_rad = INSOLE_R(0.1);
+    weighing.stride.sigma_length_m = INSOLE_R(0.1);
+    insole_evidence_position(&weighing.news, spot(21.0, 15.0), INSOLE_R(0.8));
+    pass(NULL);
+    memcpy(whole, particles, sizeof whole);
+    uint32_t heaviest = weighing.heaviest;
+    memcpy(particles, before, sizeof before);
+    rng = rng_before;
+    insole_weighing_begin(&weighing);
+    for (uint32_t first = 0, end = 0; first < N; first = end) {
+        end = first + 1u + first % 7u < N ? first + 1u + first % 7u : N;
+        insole_weighing_move(&weighing, &field, NULL, &cloud, first, end, &rng);
+        insole_weighing_weigh(&weighing, &field, &cloud, first, end);
+        ck_assert_mem_eq(&particles[end], &before[end], (N - end) * sizeof before[0]);
+    }
+    ck_assert_mem_eq(particles, whole, sizeof whole);
+    ck_assert_uint_eq(weighing.heaviest, heaviest);
+    rng_before = rng;
+    insole_weighing_move(&weighing, &field, NULL, &cloud, 3, 3, &rng);
+    insole_weighing_weigh(&weighing, &field, &cloud, 3, 3);
+    ck_assert_mem_eq(particles, whole, sizeof whole);
+    ck_assert_mem_eq(&rng, &rng_before, sizeof rng);
 }
 END_TEST
 
@@ -273,6 +304,7 @@ Suite *insole_suite(void)
     suite_add(suite, "own direction", particles_are_shaded_by_their_own_direction);
     suite_add_loop(suite, "plan", a_plan_kills_as_it_is_told_to, sizeof ways / sizeof ways[0]);
     suite_add(suite, "dead", the_dead_stay_dead_and_where_they_are);
+    suite_add_loop(suite, "parts", parts_make_the_whole, 2);
     suite_add(suite, "no stride", without_a_stride_nobody_moves);
     suite_add(suite, "heaviest", the_heaviest_is_found);
     suite_add(suite, "no weight kills", no_weight_kills);

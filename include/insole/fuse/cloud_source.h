@@ -69,13 +69,20 @@ void insole_cloud_source_mix(insole_cloud_source_t *source, const insole_cloud_s
 void insole_cloud_source_draw(const insole_cloud_source_t *source, insole_particle_t *particle,
                               const insole_floor_plan_t *plan, insole_rng_t *rng);
 
-/** Moves a copy aside, by a normal share of what is not known: copies that stay together tell no
- *  more than one. Its place stays when a wall stands in the way.
- *  @param share  of each 1-sigma
- *  @param plan   NULL: no walls */
-void insole_cloud_source_spread(const insole_cloud_source_t *source, insole_real_t share,
-                                insole_particle_t *particle, const insole_floor_plan_t *plan,
-                                insole_rng_t *rng);
+/** How far copies are moved aside at most. */
+typedef struct {
+    insole_real_t x_m, y_m, offset_rad;
+} insole_cloud_aside_t;
+
+/** @param share  1-sigma of the moves, as a share of the source's */
+insole_cloud_aside_t insole_cloud_source_aside(const insole_cloud_source_t *source,
+                                               insole_real_t share);
+
+/** Moves a copy aside, evenly to either side: copies that stay together tell no more than one. Its
+ *  place stays when a wall stands in the way.
+ *  @param plan  NULL: no walls */
+void insole_cloud_source_spread(const insole_cloud_aside_t *aside, insole_particle_t *particle,
+                                const insole_floor_plan_t *plan, insole_rng_t *rng);
 
 #ifdef __cplusplus
 }

@@ -68,8 +68,9 @@ typedef struct {
     insole_real_t sigma_wander_rad; /**< of what stays in the offset */
     insole_real_t scale_memory;     /**< how much of a scale other than 1 stays */
     insole_real_t sigma_scale;      /**< of what is added to it */
-    insole_real_t apart_wander_rad; /**< the same two by normal numbers of their own, */
-    insole_real_t apart_scale;      /**< insole_cloud_wander() */
+    bool is_apart;                  /**< before, the same two by normal numbers of their own */
+    insole_real_t apart_wander_rad;
+    insole_real_t apart_scale;
 } insole_cloud_stride_t;
 
 /** Weighted sums, relative to the heaviest particle. */
@@ -119,15 +120,14 @@ static inline insole_turn_t insole_cloud_direction(const insole_particle_t *part
     return insole_turn(heading_rad + particle->offset_rad);
 }
 
-/** Changes offset and scale of one particle before a stride, apart from how that scatters. */
+/** Changes offset and scale of one particle apart from how its stride scatters. */
 static inline void insole_cloud_wander(insole_particle_t *particle,
                                        const insole_cloud_stride_t *stride, insole_rng_t *rng)
 {
-    insole_real_t of_offset, of_scale;
-    insole_rng_normals(rng, &of_offset, &of_scale);
+    insole_normals_t off = insole_rng_normals(rng);
     particle->offset_rad =
-        insole_wrap_pi(particle->offset_rad + stride->apart_wander_rad * of_offset);
-    particle->scale += stride->apart_scale * of_scale;
+        insole_wrap_pi(particle->offset_rad + stride->apart_wander_rad * off.first);
+    particle->scale += stride->apart_scale * off.second;
 }
 
 /** Moves one particle by a stride, (32). Two normal numbers are drawn, one along and one across:
@@ -135,8 +135,12 @@ static inline void insole_cloud_wander(insole_particle_t *particle,
 static inline void insole_cloud_walk(insole_particle_t *particle,
                                      const insole_cloud_stride_t *stride, insole_rng_t *rng)
 {
-    insole_real_t along, across, one = INSOLE_R(1.0);
-    insole_rng_normals(rng, &along, &across);
+    insole_real_t one = INSOLE_R(1.0);
+    if (stride->is_apart) {
+        insole_cloud_wander(particle, stride, rng);
+    }
+    insole_normals_t off = insole_rng_normals(rng);
+    insole_real_t along = off.first, across = off.second;
     particle->offset_rad = insole_wrap_pi(particle->offset_rad + stride->sigma_wander_rad * across);
     insole_turn_t direction =
         insole_cloud_direction(particle, stride->heading_rad + stride->sigma_heading_rad * across);

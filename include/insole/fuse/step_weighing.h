@@ -30,8 +30,7 @@ typedef struct {
     insole_radio_bias_t radio;
     bool by_radio; /**< the start was a fix, that particles are drawn about */
 
-    bool is_told; /**< there is something here to walk or weigh by */
-    bool wanders; /**< offset and scale change apart from the stride */
+    bool is_told; /**< there is something here to look at or weigh by */
     bool looks;   /**< soft walls: all must have walked before they are weighed */
     bool has_fix, has_compass;
     insole_real_t heading_rad; /**< n: of the last stride */
@@ -66,15 +65,15 @@ insole_status_t insole_step_weighing_begin(insole_step_weighing_t *steps,
                                            const insole_evidence_t *news, bool learns,
                                            bool has_plan);
 
-/** First round: a particle's offset and scale change, it walks, and is looked at. */
-void insole_step_weighing_move(insole_step_weighing_t *steps, const insole_weighing_t *weighing,
-                               insole_rss_field_t *field, const insole_floor_plan_t *plan,
-                               insole_particle_t *particle, insole_rng_t *rng);
+/** First round, when particles have walked: those from number `first` on, up to `end`, are looked
+ *  at. */
+void insole_step_weighing_look(insole_step_weighing_t *steps, const insole_floor_plan_t *plan,
+                               const insole_cloud_t *cloud, uint32_t first, uint32_t end);
 
-/** Second round: weighs a particle by all that was told, unless it is dead. */
-void insole_step_weighing_weigh(const insole_step_weighing_t *steps, insole_weighing_t *weighing,
-                                const insole_rss_field_t *field, const insole_floor_plan_t *plan,
-                                const insole_cloud_t *cloud, uint32_t number);
+/** Second round: what was told here goes into their weights, but the dead ones'. */
+void insole_step_weighing_weigh(const insole_step_weighing_t *steps,
+                                const insole_floor_plan_t *plan, const insole_cloud_t *cloud,
+                                uint32_t first, uint32_t end);
 
 #ifdef __cplusplus
 }

@@ -57,16 +57,17 @@ bool insole_weighing_listen(const insole_weighing_t *weighing, insole_rss_field_
                             const insole_building_t *building, const insole_evidence_t *news,
                             const insole_cloud_source_t *reach, insole_real_t wide_rad);
 
-/** Walks the stride, if there is one, and tells the field where the particle needs it, if there is
- *  a scan. A particle that the plan kills is marked dead, the dead stay where they are.
+/** Particles from number `first` on, up to `end`, walk the stride, if there is one, and tell the
+ *  field where they need it, if there is a scan. A particle that the plan kills is marked dead, the
+ *  dead stay where they are.
  *  @param plan  NULL: no walls */
 void insole_weighing_move(const insole_weighing_t *weighing, insole_rss_field_t *field,
-                          const insole_floor_plan_t *plan, insole_particle_t *particle,
-                          insole_rng_t *rng);
+                          const insole_floor_plan_t *plan, const insole_cloud_t *cloud,
+                          uint32_t first, uint32_t end, insole_rng_t *rng);
 
-/** Weighs a particle, unless it is dead. */
+/** Weighs particles, but the dead. */
 void insole_weighing_weigh(insole_weighing_t *weighing, const insole_rss_field_t *field,
-                           insole_particle_t *particle, uint32_t number);
+                           const insole_cloud_t *cloud, uint32_t first, uint32_t end);
 
 /** Sees whether a particle is the heaviest. */
 static inline void insole_weighing_note(insole_weighing_t *weighing,

@@ -102,6 +102,13 @@ insole_status_t insole_floor_plan_walls_between(const insole_floor_plan_t *plan,
                                                 insole_real_t y1_m,
                                                 insole_walls_between_t *between);
 
+/** The same for who asks of no more than `enough_db`: once the walls met lose so much, others may
+ * be left out. */
+insole_status_t insole_floor_plan_walls_until(const insole_floor_plan_t *plan, insole_real_t x0_m,
+                                              insole_real_t y0_m, insole_real_t x1_m,
+                                              insole_real_t y1_m, insole_real_t enough_db,
+                                              insole_walls_between_t *between);
+
 /** Distance to the nearest wall, at most `limit_m`; costs by the area of `limit_m`.
  *  @param[out] distance_m  0 .. limit_m
  *  @return INSOLE_ERR_VALUE for coordinates out of range or a limit that is not positive */

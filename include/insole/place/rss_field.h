@@ -79,7 +79,6 @@ typedef struct {
 typedef struct {
     insole_real_t log_likelihood[INSOLE_RSS_FIELD_VIEWS]; /**< one when the heading is known */
     insole_real_t deviation_db;                           /**< measured less expected */
-    bool needed;
 } insole_rss_node_t;
 
 typedef struct {
@@ -87,8 +86,8 @@ typedef struct {
     insole_wall_losses_t losses; /**< and the lattice */
 
     uint32_t heard_count;
-    uint32_t heard_id[INSOLE_RSS_FIELD_HEARD];   /**< strongest first */
-    uint32_t heard_slot[INSOLE_RSS_FIELD_HEARD]; /**< of its wall losses */
+    uint32_t heard_id[INSOLE_RSS_FIELD_HEARD];  /**< strongest first */
+    uint8_t heard_slot[INSOLE_RSS_FIELD_HEARD]; /**< of its wall losses */
     insole_real_t heard_dbm[INSOLE_RSS_FIELD_HEARD];
     bool points_elsewhere;
     insole_anchor_fix_t elsewhere; /**< where the scan itself points */
@@ -99,6 +98,7 @@ typedef struct {
     uint32_t views;                                     /**< 1 or INSOLE_RSS_FIELD_VIEWS */
     uint32_t next_node, next_heard;                     /**< to be computed */
     insole_rss_node_t node[INSOLE_RSS_FIELD_NODES + 1]; /**< the last: where the scan points */
+    bool needed[INSOLE_RSS_FIELD_NODES + 1];            /**< the same nodes */
 
     uint32_t learned;                 /**< scans that the offset is the mean of */
     insole_real_t offset_db;          /**< the receiver hears so much stronger than expected */

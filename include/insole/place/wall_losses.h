@@ -9,6 +9,7 @@
  *
  *      static insole_wall_losses_t losses;
  *      insole_wall_losses_init(&losses);
+ *      insole_wall_losses_limit(&losses, config.walls_max_db);
  *      insole_wall_losses_move(&losses, spacing_m, x_m, y_m);
  *      insole_wall_losses_reserve(&losses, ids, count, slots);
  *      for all nodes, for all access points k heard:
@@ -35,20 +36,33 @@ enum {
 /** Largest coordinate and spacing [m]. */
 #define INSOLE_WALL_LOSSES_REACH_M INSOLE_R(1e5)
 
+/** Largest limit of losses [dB]. */
+#define INSOLE_WALL_LOSSES_MOST_DB INSOLE_R(1000.0)
+
 /** Losses of one access point. A node keeps its place in the list for as long as it stays. */
 typedef struct {
-    uint32_t id; /**< of the access point; UINT32_MAX: of none */
-    insole_real_t loss_db[INSOLE_WALL_LOSSES_NODES]; /**< negative: not counted yet */
+    uint32_t id;                             /**< of the access point; UINT32_MAX: of none */
+    uint8_t steps[INSOLE_WALL_LOSSES_NODES]; /**< of `step_db`; 255: not counted yet */
 } insole_wall_losses_slot_t;
 
 typedef struct {
     insole_wall_losses_slot_t slot[INSOLE_WALL_LOSSES_SLOTS];
+    insole_real_t limit_db;  /**< no loss is more */
+    insole_real_t step_db;   /**< losses are kept in whole steps */
     insole_real_t spacing_m; /**< distance of nodes */
     int32_t column, row;     /**< map numbers of the lowest node: its x is column x spacing */
 } insole_wall_losses_t;
 
-/** @return INSOLE_ERR_NULL */
+/** Losses are limited to 31.75 dB.
+ *  @return INSOLE_ERR_NULL */
 insole_status_t insole_wall_losses_init(insole_wall_losses_t *losses);
+
+/** What loses more counts as this limit: walls are counted until it is reached. Losses are kept to
+ *  half a step of 1/8 dB, or of the smallest doubling of it of which 254 reach the limit. With
+ *  another limit all losses are forgotten.
+ *  @param limit_db  0 .. INSOLE_WALL_LOSSES_MOST_DB
+ *  @return INSOLE_ERR_VALUE for a limit out of range */
+insole_status_t insole_wall_losses_limit(insole_wall_losses_t *losses, insole_real_t limit_db);
 
 /** Lays the lattice so that (x, y) lies within half a spacing of its centre. With another spacing
  *  all losses are forgotten.
@@ -65,15 +79,15 @@ insole_status_t insole_wall_losses_reserve(insole_wall_losses_t *losses, const u
 /** Where a node lies; nodes count row by row from the lowest. */
 insole_spot_t insole_wall_losses_spot(const insole_wall_losses_t *losses, uint32_t node);
 
-/** Loss of all walls between a node and an access point at (x, y), in dB.
+/** Loss of all walls between a node and an access point at (x, y), in dB, at most the limit.
  *  @param plan  NULL: no walls
  *  @return 0 for what makes no sense */
 insole_real_t insole_wall_losses_at(insole_wall_losses_t *losses, const insole_floor_plan_t *plan,
                                     uint32_t node, uint32_t slot, insole_spot_t ap);
 
-/** The same between any two places, not kept. */
+/** The same between any two places, neither kept nor in steps. */
 insole_real_t insole_wall_losses_between(const insole_floor_plan_t *plan, insole_spot_t from,
-                                         insole_spot_t to);
+                                         insole_spot_t to, insole_real_t limit_db);
 
 #ifdef __cplusplus
 }
