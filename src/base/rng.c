@@ -54,7 +54,7 @@ insole_real_t insole_rng_uniform(insole_rng_t *rng)
 
 static double distance_of(uint32_t bits)
 {
-    return sqrt(-2.0 * log(((double)bits + 0.5) * 2.3283064365386963e-10));
+    return insole_sqrt(-2.0 * insole_log(((double)bits + 0.5) * 2.3283064365386963e-10));
 }
 
 static insole_turn_t bearing_of(uint32_t bits)
@@ -77,7 +77,7 @@ static float distance_of(uint32_t bits)
     float f = x.value - 1.0f;
     float p = ((0.284321f * f - 0.4385621f) * f + 0.50775933f) * f - 0.6654806f;
     p = ((p * f + 0.99983484f) * f - 2.0f) * f;
-    return sqrtf((float)(k - 32) * -1.38629436f + p);
+    return insole_sqrt((float)(k - 32) * -1.38629436f + p);
 }
 
 /* By the half turn that the direction lies about; minimax, 6e-7. */

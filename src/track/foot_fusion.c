@@ -49,6 +49,7 @@ INSOLE_COLD insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion
     fusion->config = own_of(config);
     fusion->memory = *memory;
     fusion->building = building;
+    fusion->radio.ranges = memory->ranges;
     bool printed = config->method == INSOLE_FUSION_TWO_ORDER;
     (void)insole_foot_tracker_init(&fusion->foot, &config->foot);
     return insole_particle_filter_init(&fusion->particles,
@@ -97,7 +98,6 @@ static insole_fusion_site_t site_of(const insole_foot_fusion_t *f)
     insole_fusion_site_t site = {f->building,
                                  &f->config.rss_fix,
                                  &f->config.range_fix,
-                                 f->memory.ranges,
                                  f->config.method == INSOLE_FUSION_WIFI,
                                  f->config.method == INSOLE_FUSION_TWO_ORDER,
                                  f->config.sigma_range_m};

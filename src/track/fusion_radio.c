@@ -128,7 +128,7 @@ static void drop_ranges(insole_fusion_ranges_t *ranges, uint32_t count)
 
 static void keep_range(insole_fusion_radio_t *radio, const insole_range_t *range)
 {
-    insole_fusion_ranges_t *kept = &radio->ranges;
+    insole_fusion_ranges_t *kept = radio->ranges;
     if (kept->count == INSOLE_FUSION_RANGES) {
         drop_ranges(kept, 1u);
         radio->counts.unused++;
@@ -175,7 +175,16 @@ INSOLE_COLD static void tell_range(const insole_range_t *range, const insole_fus
     (void)insole_evidence_range(evidence, &told);
 }
 
-const insole_fusion_range_calls_t insole_fusion_range_calls = {solve_ranges, tell_range};
+insole_status_t insole_fusion_ranges_init(insole_fusion_ranges_t *ranges)
+{
+    static const insole_fusion_range_calls_t calls = {solve_ranges, tell_range};
+    if (!ranges) {
+        return INSOLE_ERR_NULL;
+    }
+    memset(ranges, 0, sizeof *ranges);
+    ranges->calls = &calls;
+    return INSOLE_OK;
+}
 
 INSOLE_COLD insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *radio,
                                                       const insole_fusion_site_t *site,
@@ -188,7 +197,7 @@ INSOLE_COLD insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *rad
     if (status != INSOLE_OK) {
         return status;
     }
-    if (!site->ranges) {
+    if (!radio->ranges) {
         return INSOLE_ERR_STATE;
     }
     for (uint32_t i = 0u; i < count; i++) {
@@ -201,7 +210,7 @@ INSOLE_COLD insole_status_t insole_fusion_radio_range(insole_fusion_radio_t *rad
     }
     if (count > 0u && site->at_once) {
         static const insole_spot_t nowhere = {ZERO, ZERO};
-        site->ranges->solve(radio, site, ranges, count, nowhere);
+        radio->ranges->calls->solve(radio, site, ranges, count, nowhere);
     }
     return INSOLE_OK;
 }
@@ -217,14 +226,14 @@ static bool is_next_moment(const insole_fusion_ranges_t *ranges, uint64_t t_us)
 INSOLE_COLD static void place_moment(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
                                      insole_spot_t n_m)
 {
-    insole_fusion_ranges_t *ranges = &radio->ranges;
+    insole_fusion_ranges_t *ranges = radio->ranges;
     const insole_range_t *first = &ranges->range[ranges->placed];
     uint32_t count = 0u, left = ranges->count - ranges->placed;
     for (; count < left && first[count].t_us == first->t_us; count++) {
         ranges->n_m[ranges->placed + count] = n_m;
     }
     ranges->placed += count;
-    site->ranges->solve(radio, site, first, count, n_m);
+    ranges->calls->solve(radio, site, first, count, n_m);
 }
 
 INSOLE_COLD static void place_scan(insole_fusion_radio_t *radio, const insole_fusion_site_t *site,
@@ -248,16 +257,21 @@ insole_status_t insole_fusion_radio_place(insole_fusion_radio_t *radio,
     if (status == INSOLE_OK && radio->arrived.waits && t_us >= radio->arrived.t_us) {
         place_scan(radio, site, n_m);
     }
-    while (status == INSOLE_OK && site->ranges && is_next_moment(&radio->ranges, t_us)) {
+    while (status == INSOLE_OK && radio->ranges && is_next_moment(radio->ranges, t_us)) {
         place_moment(radio, site, n_m);
     }
     return INSOLE_OK;
 }
 
+static uint32_t placed_of(const insole_fusion_radio_t *radio)
+{
+    return radio->ranges ? radio->ranges->placed : 0u;
+}
+
 bool insole_fusion_radio_waits(const insole_fusion_radio_t *radio, uint64_t before_us)
 {
     return radio && ((radio->scan.waits && radio->scan.t_us <= before_us) ||
-                     (radio->ranges.placed > 0u && radio->ranges.range[0].t_us <= before_us));
+                     (placed_of(radio) > 0u && radio->ranges->range[0].t_us <= before_us));
 }
 
 /* The strongest access point, if it is near: its range by (11), weighed by (39). */
@@ -280,6 +294,13 @@ static void tell_nearest(const insole_fusion_scan_t *scan, const insole_fusion_s
     }
 }
 
+static void drop_placed(insole_fusion_radio_t *radio)
+{
+    if (radio->ranges) {
+        drop_ranges(radio->ranges, radio->ranges->placed);
+    }
+}
+
 INSOLE_COLD insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radio,
                                                      const insole_fusion_site_t *site,
                                                      insole_spot_t end_n_m,
@@ -289,7 +310,6 @@ INSOLE_COLD insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radi
         return INSOLE_ERR_NULL;
     }
     insole_fusion_scan_t *scan = &radio->scan;
-    insole_fusion_ranges_t *ranges = &radio->ranges;
     if (scan->waits && site->nearest_only) {
         tell_nearest(scan, site, insole_spot_sub(end_n_m, scan->n_m), evidence);
     } else if (scan->waits) {
@@ -297,21 +317,22 @@ INSOLE_COLD insole_status_t insole_fusion_radio_tell(insole_fusion_radio_t *radi
                                    insole_spot_sub(end_n_m, scan->n_m));
     }
     scan->waits = false;
-    for (uint32_t i = 0u; site->ranges && i < ranges->placed; i++) {
-        site->ranges->tell(&ranges->range[i], site, insole_spot_sub(end_n_m, ranges->n_m[i]),
-                           evidence);
+    for (uint32_t i = 0u; i < placed_of(radio); i++) {
+        const insole_fusion_ranges_t *ranges = radio->ranges;
+        insole_spot_t since = insole_spot_sub(end_n_m, ranges->n_m[i]);
+        ranges->calls->tell(&ranges->range[i], site, since, evidence);
     }
-    drop_ranges(ranges, ranges->placed);
+    drop_placed(radio);
     return INSOLE_OK;
 }
 
 INSOLE_COLD void insole_fusion_radio_forget(insole_fusion_radio_t *radio)
 {
     if (radio) {
-        radio->counts.unused += (radio->scan.waits ? 1u : 0u) + radio->ranges.placed;
+        radio->counts.unused += (radio->scan.waits ? 1u : 0u) + placed_of(radio);
         radio->scan.waits = false;
         radio->has_fix = false;
-        drop_ranges(&radio->ranges, radio->ranges.placed);
+        drop_placed(radio);
     }
 }
 

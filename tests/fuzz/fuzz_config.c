@@ -22,8 +22,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static insole_particle_t particle;
     static insole_spot_t past;
     static insole_fusion_start_t start;
-    const insole_fusion_memory_t memory = {
-        &particle, 1u, &past, 1u, &insole_fusion_range_calls, {insole_fusion_start_hear, &start}};
+    static insole_fusion_ranges_t ranges;
+    const insole_fusion_memory_t memory = {&particle, 1u,      &past,
+                                           1u,        &ranges, {insole_fusion_start_hear, &start}};
     failure_t failure = {EXIT_DONE, ""};
     settings_init(&settings);
     if (!config_read_file(&settings, fuzz_file(data, size), "config", &failure)) {

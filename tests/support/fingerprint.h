@@ -60,7 +60,7 @@ static const fingerprint_t FINGERPRINTS[FINGERPRINT_COUNT] = {
     {"log", insole_log, 0x75105850u},
     {"wrap_pi", insole_wrap_pi, 0x6c90ccfbu},
     {"atan2", fingerprint_atan2, 0x30c0227eu},
-    {"normal", fingerprint_normal, 0x304d167fu},
+    {"normal", fingerprint_normal, 0xb1d5a4a3u},
 };
 
 #endif

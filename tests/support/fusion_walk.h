@@ -62,6 +62,7 @@ static insole_particle_t fusion_particles[FUSION_PARTICLES];
 static insole_spot_t fusion_past[FUSION_PARTICLES * FUSION_PAST];
 static insole_late_row_t fusion_late[FUSION_LATE];
 static insole_foot_late_t waiting;
+static insole_fusion_ranges_t fusion_ranges;
 static insole_fusion_start_t fixes_of_start;
 static insole_foot_fusion_t fusion;
 static insole_fix_t fixes[FUSION_SAMPLES];
@@ -172,12 +173,9 @@ static inline fusion_case_t usual_case(void)
 
 static inline insole_fusion_memory_t memory_of(const fusion_case_t *c)
 {
-    insole_fusion_memory_t memory = {fusion_particles,
-                                     c->particles,
-                                     fusion_past,
-                                     FUSION_PAST,
-                                     &insole_fusion_range_calls,
-                                     {insole_fusion_start_hear, &fixes_of_start}};
+    insole_fusion_memory_t memory = {fusion_particles, c->particles,
+                                     fusion_past,      FUSION_PAST,
+                                     &fusion_ranges,   {insole_fusion_start_hear, &fixes_of_start}};
     return memory;
 }
 
@@ -187,6 +185,7 @@ static inline void set_up(const fusion_case_t *c)
     fix_count = 0u;
     memset(fusion_past, 0, sizeof fusion_past);
     ck_assert_int_eq(insole_fusion_start_init(&fixes_of_start, c->config.start_fixes), INSOLE_OK);
+    ck_assert_int_eq(insole_fusion_ranges_init(&fusion_ranges), INSOLE_OK);
     ck_assert_int_eq(insole_foot_late_init(&waiting, fusion_late, c->late), INSOLE_OK);
     ck_assert_int_eq(insole_foot_fusion_init(&fusion, &c->config, &memory, c->building, c->seed),
                      INSOLE_OK);

@@ -32,7 +32,8 @@ static inline void radio_scatter(radio_t *r, insole_rng_t *rng, uint32_t count, 
 {
     r->propagation = insole_propagation_defaults;
     for (uint32_t i = 0; i < count; i++) {
-        radio_put(r, i, x0 + draw_uniform(rng, 0.0, 40.0), y0 + draw_uniform(rng, 0.0, 30.0));
+        double y = y0 + draw_uniform(rng, 0.0, 30.0), x = x0 + draw_uniform(rng, 0.0, 40.0);
+        radio_put(r, i, x, y);
         r->aps[i].exponent = (insole_real_t)draw_uniform(rng, 1.8, 2.6);
     }
     insole_building_t building = {&r->propagation, r->aps, count, NULL, NULL};

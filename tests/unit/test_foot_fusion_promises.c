@@ -150,14 +150,18 @@ START_TEST(a_copy_goes_on_bit_for_bit)
     memcpy(past, fusion_past, sizeof past);
     memcpy(late, fusion_late, sizeof late);
     insole_foot_late_t still_waiting = waiting;
+    static insole_fusion_ranges_t ranges;
+    ranges = fusion_ranges;
     memset(&fusion, 0xa5, sizeof fusion);
     memset(fusion_particles, 0xa5, sizeof fusion_particles);
     memset(fusion_past, 0xa5, sizeof fusion_past);
     memset(fusion_late, 0xa5, sizeof fusion_late);
     memset(&waiting, 0xa5, sizeof waiting);
+    memset(&fusion_ranges, 0xa5, sizeof fusion_ranges);
     ck_assert_int_eq(insole_snapshot_load(9, &other, sizeof other, saved, used), INSOLE_OK);
     other.memory.particles = particles;
     other.memory.past = past;
+    other.memory.ranges = other.radio.ranges = &ranges;
     waiting = still_waiting;
     waiting.rows = late;
     run(&c, &other, cut, sample_count);
@@ -382,11 +386,10 @@ START_TEST(bad_calls_change_nothing_but_their_counter)
     ASSERT_REFUSED(fusion, *foot, insole_foot_fusion_start(&fusion, NULL), INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(fusion, insole_foot_fusion_imu(&fusion, NULL), INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(fusion, insole_foot_fusion_next(&fusion, NULL), INSOLE_ERR_NULL);
-    const insole_fusion_range_calls_t *calls = fusion.memory.ranges;
-    fusion.memory.ranges = NULL;
+    fusion.radio.ranges = NULL;
     ASSERT_REFUSED(fusion, *refused, insole_foot_fusion_ranges(&fusion, heard[0].ranges, 2),
                    INSOLE_ERR_STATE);
-    fusion.memory.ranges = calls;
+    fusion.radio.ranges = &fusion_ranges;
     fusion.building = NULL;
     ASSERT_REFUSED(fusion, *refused, insole_foot_fusion_scan(&fusion, &scan), INSOLE_ERR_STATE);
     ASSERT_REFUSED(fusion, *refused, insole_foot_fusion_ranges(&fusion, heard[0].ranges, 2),

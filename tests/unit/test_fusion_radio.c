@@ -18,6 +18,7 @@ static insole_rss_fix_config_t rss_fix;
 static insole_range_fix_config_t range_fix;
 static insole_fusion_site_t site;
 static insole_fusion_radio_t radio, before;
+static insole_fusion_ranges_t kept;
 static insole_evidence_t news;
 
 static void begin(uint32_t aps)
@@ -27,10 +28,11 @@ static void begin(uint32_t aps)
     radio_scatter(&world, &rng, aps, 0.0, 0.0);
     rss_fix = insole_rss_fix_defaults;
     range_fix = insole_range_fix_defaults;
-    insole_fusion_site_t s = {&world.building, &rss_fix, &range_fix, &insole_fusion_range_calls,
-                              false,           false,    2};
+    insole_fusion_site_t s = {&world.building, &rss_fix, &range_fix, false, false, 2};
     site = s;
     radio = blank;
+    ck_assert_int_eq(insole_fusion_ranges_init(&kept), INSOLE_OK);
+    radio.ranges = &kept;
     insole_evidence_clear(&news);
 }
 
@@ -225,7 +227,7 @@ START_TEST(a_leap_of_stamps_is_got_over)
         range((3 + i) * SECOND, 20.0, 15.0, 1);
         place((3 + i) * SECOND, 1.0, 1.0);
     }
-    ck_assert_uint_eq(radio.ranges.placed, RANGES);
+    ck_assert_uint_eq(radio.ranges->placed, RANGES);
     ck_assert_uint_eq(radio.counts.unused, 2);
 }
 END_TEST
@@ -258,7 +260,7 @@ START_TEST(ranges_are_told_from_where_they_were_measured)
     range(SECOND, 20.0, 15.0, 2);
     range(2 * SECOND, 20.0, 15.0, 2);
     range(3 * SECOND, 20.0, 15.0, 1);
-    radio.ranges.range[2].sigma_m = INSOLE_R(0.75);
+    radio.ranges->range[2].sigma_m = INSOLE_R(0.75);
     place(SECOND, 1.0, 0.0);
     place(2 * SECOND + 5, 2.0, 0.5);
     tell(4.0, 2.0);
@@ -275,12 +277,12 @@ START_TEST(ranges_are_told_from_where_they_were_measured)
         ASSERT_NEAR(told->sigma_m, i == 2 ? hypot(sigma, 0.75) : sigma, 1e-6, "m");
         ck_assert(told->dof > 0);
     }
-    ck_assert_uint_eq(radio.ranges.count, 1);
+    ck_assert_uint_eq(radio.ranges->count, 1);
     place(3 * SECOND, 5.0, 5.0);
     tell(6.0, 5.0);
     ck_assert_uint_eq(news.ranges, 1);
     ASSERT_NEAR(news.range[0].since.x_m, 1.0, 1e-6, "m");
-    ck_assert_uint_eq(radio.ranges.count, 0);
+    ck_assert_uint_eq(radio.ranges->count, 0);
     ck_assert_uint_eq(radio.counts.ranges, 5);
 }
 END_TEST
@@ -292,14 +294,14 @@ START_TEST(the_oldest_ranges_leave)
     range(SECOND, 20.0, 15.0, 3);
     place(SECOND, 1.0, 1.0);
     range(2 * SECOND, 20.0, 15.0, 7);
-    ck_assert_uint_eq(radio.ranges.count, RANGES);
-    ck_assert_uint_eq(radio.ranges.placed, 1);
+    ck_assert_uint_eq(radio.ranges->count, RANGES);
+    ck_assert_uint_eq(radio.ranges->placed, 1);
     ck_assert_uint_eq(radio.counts.unused, 2);
     range(2 * SECOND, 20.0, 15.0, APS);
-    ck_assert_uint_eq(radio.ranges.placed, 0);
+    ck_assert_uint_eq(radio.ranges->placed, 0);
     ck_assert_uint_eq(radio.counts.unused, 2 + APS);
     for (uint32_t i = 0; i < RANGES; i++) {
-        ck_assert_uint_eq(radio.ranges.range[i].id, APS - RANGES + i);
+        ck_assert_uint_eq(radio.ranges->range[i].id, APS - RANGES + i);
     }
     place(2 * SECOND, 2.0, 2.0);
     tell(3.0, 3.0);
@@ -326,7 +328,7 @@ START_TEST(bad_ranges_are_passed_over)
     ck_assert_int_eq(insole_fusion_radio_range(&radio, &site, &bad, 1), INSOLE_OK);
     place(2 * SECOND, 0.0, 0.0);
     insole_fusion_counts_t expected = {0, 1, 0, 1};
-    ck_assert_msg(radio.ranges.count == 0 && !radio.has_fix, "%s", bad_ranges[_i].what);
+    ck_assert_msg(radio.ranges->count == 0 && !radio.has_fix, "%s", bad_ranges[_i].what);
     ck_assert_mem_eq(&radio.counts, &expected, sizeof expected);
 }
 END_TEST
@@ -406,7 +408,7 @@ START_TEST(at_once_nothing_waits)
     radio.is_new = false;
     range(4 * SECOND, 10.0, 10.0, 6);
     ck_assert(radio.is_new && radio.fix_us == 4 * SECOND);
-    ck_assert(!radio.arrived.waits && radio.ranges.count == 0);
+    ck_assert(!radio.arrived.waits && radio.ranges->count == 0);
     place(5 * SECOND, 0.0, 0.0);
     tell(0.0, 0.0);
     ck_assert(!news.has_scan && news.ranges == 0);
@@ -525,22 +527,24 @@ START_TEST(without_access_points_there_is_no_radio)
 }
 END_TEST
 
-/* A site that names no calls for ranges refuses them; scans are heard as ever. */
-START_TEST(ranges_need_their_calls)
+/* Whoever lends nothing for ranges is told none; scans are heard as ever. */
+START_TEST(ranges_need_their_room)
 {
     begin(APS);
     range(SECOND, 20.0, 15.0, 3);
-    insole_fusion_site_t deaf = site;
-    deaf.ranges = NULL;
-    ASSERT_UNCHANGED(radio, insole_fusion_radio_range(&radio, &deaf, ranges, 3), INSOLE_ERR_STATE);
-    begin(APS);
-    site.ranges = NULL;
+    radio.ranges = NULL;
+    ASSERT_UNCHANGED(radio, insole_fusion_radio_range(&radio, &site, ranges, 3), INSOLE_ERR_STATE);
     hear(SECOND, 20.0, 15.0);
     place(SECOND, 1.0, 1.0);
+    ck_assert(insole_fusion_radio_waits(&radio, SECOND));
     tell(2.0, 1.0);
-    ck_assert(radio.has_fix);
+    ck_assert(radio.has_fix && !insole_fusion_radio_waits(&radio, UINT64_MAX));
     ck_assert_uint_eq(news.ranges, 0);
     ck_assert_uint_gt(news.reading_count, 0);
+    insole_fusion_radio_forget(&radio);
+    ck_assert(!radio.has_fix);
+    ck_assert_uint_eq(kept.count, 3); /* nobody has looked */
+    ck_assert_int_eq(insole_fusion_ranges_init(NULL), INSOLE_ERR_NULL);
 }
 END_TEST
 
@@ -644,7 +648,7 @@ START_TEST(whatever_comes_it_keeps_its_order)
     site.at_once = _i == 2;
     for (uint32_t k = 1; k < 5000; k++) {
         come_what_may(k * (uint64_t)500000u);
-        ck_assert(radio.ranges.placed <= radio.ranges.count && radio.ranges.count <= RANGES);
+        ck_assert(radio.ranges->placed <= radio.ranges->count && radio.ranges->count <= RANGES);
         ck_assert(radio.scan.count <= INSOLE_FUSION_HEARD);
         ck_assert(!radio.has_fix || (insole_is_finite(radio.fix.x_m) && radio.fix.P.xx >= 0));
         if (insole_rng_bits(&rng) % 3u == 0u) {
@@ -665,12 +669,14 @@ START_TEST(a_copy_goes_on_alike)
     place(SECOND, 1.0, 1.0);
     hear(2 * SECOND, 22.0, 15.0);
     before = radio;
+    const insole_fusion_ranges_t kept_before = kept;
     place(2 * SECOND, 2.0, 1.0);
     tell(3.0, 1.0);
     other = news;
     insole_fusion_radio_t first = radio;
     memset(&radio, 0xa5, sizeof radio);
     radio = before;
+    kept = kept_before;
     place(2 * SECOND, 2.0, 1.0);
     tell(3.0, 1.0);
     ck_assert(radio.fix.used == first.fix.used);
@@ -745,7 +751,7 @@ Suite *insole_suite(void)
     suite_add(suite, "fix", the_place_goes_into_a_fix);
     suite_add(suite, "mix", two_places_are_mixed_by_their_weights);
     suite_add(suite, "no radio", without_access_points_there_is_no_radio);
-    suite_add(suite, "no calls for ranges", ranges_need_their_calls);
+    suite_add(suite, "no room for ranges", ranges_need_their_room);
     suite_add(suite, "bad input", bad_input_changes_nothing);
     suite_add(suite, "in vain", no_fix_is_touched_in_vain);
     suite_add_loop(suite, "whatever comes", whatever_comes_it_keeps_its_order, 3);

@@ -235,6 +235,26 @@ START_TEST(normal_is_finite_at_its_ends)
 }
 END_TEST
 
+/* Both against Box and Muller's formula in double, of the same bits. Of shares near one the float
+ * has lost what is left to them, hence the second term. */
+START_TEST(normals_are_those_of_the_formula)
+{
+    insole_rng_t rng = seeded(13u);
+    worst_t off = {0.0, 0.0};
+    for (int i = 0; i < DRAWS; i++) {
+        insole_rng_t same = rng;
+        double share = ((double)insole_rng_bits(&same) + 0.5) / 4294967296.0;
+        double angle = 6.283185307179586 * (double)insole_rng_bits(&same) / 4294967296.0;
+        double radius = sqrt(-2.0 * log(share));
+        double allowed = 6e-6 * radius + 1.2e-7 / fmax(radius, 1e-4);
+        insole_normals_t both = insole_rng_normals(&rng);
+        worst_note(&off, fabs((double)both.first - radius * cos(angle)) / allowed, i);
+        worst_note(&off, fabs((double)both.second - radius * sin(angle)) / allowed, i);
+    }
+    ASSERT_WORST(off, 1.0, "of what is allowed");
+}
+END_TEST
+
 /* The first is the one that a single draw gives; as much is drawn. */
 START_TEST(the_first_of_two_normals_is_the_single_one)
 {
@@ -318,6 +338,7 @@ Suite *insole_suite(void)
     suite_add(suite, "normal bins", normal_fills_its_bins);
     suite_add(suite, "normal tails", normal_is_right_in_the_tails);
     suite_add(suite, "normal ends", normal_is_finite_at_its_ends);
+    suite_add(suite, "formula", normals_are_those_of_the_formula);
     suite_add(suite, "first of two normals", the_first_of_two_normals_is_the_single_one);
     suite_add(suite, "second of two normals", the_second_of_two_normals_is_normal_and_independent);
     suite_add(suite, "copied state", a_copied_state_goes_on_alike);

@@ -13,6 +13,7 @@ extern const uint32_t site_ap_count;
 static struct {
     insole_building_t building;
     insole_foot_fusion_t fusion;
+    insole_fusion_ranges_t ranges;
     insole_particle_t particles[PARTICLES];
 } shoe;
 
@@ -21,10 +22,11 @@ const uint8_t tracker_name = WIRE_FOOT;
 bool tracker_begin(uint32_t seed)
 {
     const insole_fusion_memory_t memory = {
-        .particles = shoe.particles, .count = PARTICLES, .ranges = &insole_fusion_range_calls};
+        .particles = shoe.particles, .count = PARTICLES, .ranges = &shoe.ranges};
     const insole_building_t building = {&insole_propagation_defaults, site_aps, site_ap_count,
                                         &site_plan, &insole_foot_fusion_defaults.rss_fix};
     shoe.building = building;
+    (void)insole_fusion_ranges_init(&shoe.ranges);
     return insole_foot_fusion_init(&shoe.fusion, &insole_foot_fusion_defaults, &memory,
                                    &shoe.building, seed) == INSOLE_OK;
 }

@@ -35,7 +35,8 @@ static void lend_memory(foot_estimator_t *estimator, insole_real_t lag_s, int32_
     insole_fusion_memory_t *memory = &estimator->memory;
     memory->count = estimator->setup.particles;
     memory->particles = memory_new(memory->count, sizeof *memory->particles);
-    memory->ranges = &insole_fusion_range_calls;
+    (void)insole_fusion_ranges_init(&estimator->ranges);
+    memory->ranges = &estimator->ranges;
     (void)insole_fusion_start_init(&estimator->start, start_fixes);
     memory->starter = (insole_fusion_starter_t){insole_fusion_start_hear, &estimator->start};
     if (lag_s > INSOLE_R(0.0)) {

@@ -30,9 +30,10 @@ typedef struct {
     insole_building_t building;    /**< with the settings of this run */
     insole_foot_fusion_t fusion;   /**< its `foot` alone is the tracker of the first order */
     insole_fusion_memory_t memory; /**< lent to it */
-    insole_fusion_start_t start;   /**< for a start by several fixes */
-    insole_foot_late_t late;       /**< its fixes, with a lag */
-    radio_group_t radio;           /**< of the moment that is being read */
+    insole_fusion_ranges_t ranges;
+    insole_fusion_start_t start; /**< for a start by several fixes */
+    insole_foot_late_t late;     /**< its fixes, with a lag */
+    radio_group_t radio;         /**< of the moment that is being read */
     radio_counts_t counts;
     foot_events_t events;
     bool has_imu;

@@ -33,7 +33,8 @@ uint32_t insole_rng_bits(insole_rng_t *rng);
 /** Uniform in [0, 1), a multiple of 2^-24. */
 insole_real_t insole_rng_uniform(insole_rng_t *rng);
 
-/** Normal with mean 0 and standard deviation 1. */
+/** Normal with mean 0 and standard deviation 1: in float within 6e-6 of itself what the formula of
+ *  Box and Muller makes of the bits. */
 insole_real_t insole_rng_normal(insole_rng_t *rng);
 
 /** Two normal numbers. */

@@ -86,8 +86,8 @@ typedef struct {
     insole_wall_losses_t losses; /**< and the lattice */
 
     uint32_t heard_count;
-    uint32_t heard_id[INSOLE_RSS_FIELD_HEARD];   /**< strongest first */
-    uint32_t heard_slot[INSOLE_RSS_FIELD_HEARD]; /**< of its wall losses */
+    uint32_t heard_id[INSOLE_RSS_FIELD_HEARD];  /**< strongest first */
+    uint8_t heard_slot[INSOLE_RSS_FIELD_HEARD]; /**< of its wall losses */
     insole_real_t heard_dbm[INSOLE_RSS_FIELD_HEARD];
     bool points_elsewhere;
     insole_anchor_fix_t elsewhere; /**< where the scan itself points */

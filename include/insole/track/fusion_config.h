@@ -66,10 +66,9 @@ extern const insole_foot_fusion_config_t insole_foot_fusion_defaults;
 typedef struct {
     insole_particle_t *particles;
     uint32_t count;
-    insole_spot_t *past;   /**< count x past_strides, for `lag_s`; NULL: no lag */
-    uint32_t past_strides; /**< as many as a walker makes in `lag_s`, and two more */
-    const insole_fusion_range_calls_t
-        *ranges;                     /**< &insole_fusion_range_calls; NULL: none are told */
+    insole_spot_t *past;             /**< count x past_strides, for `lag_s`; NULL: no lag */
+    uint32_t past_strides;           /**< as many as a walker makes in `lag_s`, and two more */
+    insole_fusion_ranges_t *ranges;  /**< set up; NULL: ranges are refused */
     insole_fusion_starter_t starter; /**< for `start_fixes` beyond 1 */
 } insole_fusion_memory_t;
 

@@ -6,6 +6,7 @@
  *
  *  Frames  n: level, as the inertial filter left it.  m: map.
  *
+ *      insole_fusion_radio_t radio = {.ranges = &ranges};
  *      insole_fusion_radio_hear(&radio, &site, &scan);      and ranges alike
  *      on each fix of the foot:
  *          insole_fusion_radio_place(&radio, &site, t_us, n_m);
@@ -32,17 +33,11 @@ enum {
     INSOLE_FUSION_RANGES = INSOLE_EVIDENCE_RANGES /**< ranges that can wait */
 };
 
-typedef struct insole_fusion_range_calls insole_fusion_range_calls_t;
-
-/** What is made of ranges. A site that does not name it links nothing of it. */
-extern const insole_fusion_range_calls_t insole_fusion_range_calls;
-
 /** What is known of the site; all are the caller's and stay where they are. */
 typedef struct {
     const insole_building_t *building;          /**< NULL: nothing */
     const insole_rss_fix_config_t *rss_fix;     /**< settings that have passed their check */
     const insole_range_fix_config_t *range_fix; /**< the same */
-    const insole_fusion_range_calls_t *ranges;  /**< NULL: none can be told */
     bool at_once;                /**< nobody waits for the foot: radio alone is wanted */
     bool nearest_only;           /**< a scan tells of its strongest access point, (37)-(39) */
     insole_real_t sigma_range_m; /**< then, sigma_2 of (39) */
@@ -64,8 +59,12 @@ typedef struct {
     insole_rss_t readings[INSOLE_FUSION_HEARD]; /**< strongest first */
 } insole_fusion_scan_t;
 
-/** The same for ranges. */
+typedef struct insole_fusion_range_calls insole_fusion_range_calls_t;
+
+/** The same for ranges, with what is made of them: a program that sets none up links nothing of it.
+ */
 typedef struct {
+    const insole_fusion_range_calls_t *calls;
     uint32_t count, placed; /**< of the first `placed` it is known where the foot was */
     insole_range_t range[INSOLE_FUSION_RANGES];
     insole_spot_t n_m[INSOLE_FUSION_RANGES];
@@ -73,9 +72,9 @@ typedef struct {
 
 typedef struct {
     insole_fusion_counts_t counts;
-    insole_fusion_scan_t arrived; /**< the inertial filter has not come to its time yet */
-    insole_fusion_scan_t scan;    /**< waits for the end of a stride */
-    insole_fusion_ranges_t ranges;
+    insole_fusion_scan_t arrived;   /**< the inertial filter has not come to its time yet */
+    insole_fusion_scan_t scan;      /**< waits for the end of a stride */
+    insole_fusion_ranges_t *ranges; /**< the caller's; NULL: none can be told */
 
     insole_anchor_fix_t fix; /**< place by the last scan or ranges alone */
     uint64_t fix_us;
@@ -83,6 +82,9 @@ typedef struct {
     bool has_fix;
     bool is_new; /**< for the reader of `fix` to put down */
 } insole_fusion_radio_t;
+
+/** @return INSOLE_ERR_NULL */
+insole_status_t insole_fusion_ranges_init(insole_fusion_ranges_t *ranges);
 
 /** True when something can be heard. */
 bool insole_fusion_radio_has_aps(const insole_fusion_site_t *site);
