@@ -104,13 +104,11 @@ insole_status_t insole_rss_field_hear(insole_rss_field_t *field, const insole_bu
     if (heard.count == 0) {
         return INSOLE_ERR_STATE;
     }
-    uint32_t slot[INSOLE_RSS_FIELD_HEARD];
     insole_wall_losses_limit(&field->losses, building->propagation->walls_max_db);
-    insole_wall_losses_reserve(&field->losses, heard.id, heard.count, slot);
+    insole_wall_losses_reserve(&field->losses, heard.id, heard.count, field->heard_slot);
     field->heard_count = heard.count;
     for (uint32_t k = 0; k < heard.count; k++) {
         field->heard_id[k] = heard.id[k];
-        field->heard_slot[k] = (uint8_t)slot[k];
         field->heard_dbm[k] = heard.dbm[k];
     }
     const insole_rss_fix_config_t *config =
