@@ -73,3 +73,13 @@ insole_real_t insole_quat_yaw(insole_quat_t q)
     insole_mat3_t C = insole_quat_to_mat3(q);
     return insole_atan2(C.r1.x, C.r0.x);
 }
+
+insole_vec3_t insole_quat_rotate(insole_quat_t q, insole_vec3_t v)
+{
+    return insole_mat3_mul_vec(insole_quat_to_mat3(q), v);
+}
+
+insole_vec3_t insole_quat_rotate_back(insole_quat_t q, insole_vec3_t v)
+{
+    return insole_mat3_mul_vec_t(insole_quat_to_mat3(q), v);
+}

@@ -56,16 +56,10 @@ static inline insole_mat3_t insole_quat_to_mat3(insole_quat_t q)
                             insole_vec3(xz - wy, yz + wx, INSOLE_R(1.0) - (xx + yy)));
 }
 
-static inline insole_vec3_t insole_quat_rotate(insole_quat_t q, insole_vec3_t v)
-{
-    return insole_mat3_mul_vec(insole_quat_to_mat3(q), v);
-}
+insole_vec3_t insole_quat_rotate(insole_quat_t q, insole_vec3_t v);
 
 /** Rotation by the inverse of `q`. */
-static inline insole_vec3_t insole_quat_rotate_back(insole_quat_t q, insole_vec3_t v)
-{
-    return insole_mat3_mul_vec_t(insole_quat_to_mat3(q), v);
-}
+insole_vec3_t insole_quat_rotate_back(insole_quat_t q, insole_vec3_t v);
 
 /** To unit length; a quaternion of no length becomes the identity. */
 insole_quat_t insole_quat_normalize(insole_quat_t q);
