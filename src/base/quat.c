@@ -16,6 +16,11 @@ insole_quat_t insole_quat_normalize(insole_quat_t q)
     return insole_quat(q.w * s, q.x * s, q.y * s, q.z * s);
 }
 
+insole_quat_t insole_quat_chain(insole_quat_t a, insole_quat_t b)
+{
+    return insole_quat_normalize(insole_quat_mul(a, b));
+}
+
 insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad)
 {
     insole_real_t half2 = INSOLE_R(0.25) * insole_vec3_norm2(rotation_rad);
@@ -47,7 +52,7 @@ INSOLE_COLD insole_quat_t insole_quat_from_gravity(insole_vec3_t f_b)
     insole_quat_t q_roll = insole_quat_from_rotvec(insole_vec3(roll, INSOLE_R(0.0), INSOLE_R(0.0)));
     insole_quat_t q_pitch =
         insole_quat_from_rotvec(insole_vec3(INSOLE_R(0.0), pitch, INSOLE_R(0.0)));
-    return insole_quat_normalize(insole_quat_mul(q_pitch, q_roll));
+    return insole_quat_chain(q_pitch, q_roll);
 }
 
 INSOLE_COLD insole_quat_t insole_quat_from_yaw(insole_real_t yaw_rad)
@@ -59,7 +64,7 @@ INSOLE_COLD insole_quat_t insole_quat_level(insole_quat_t q, insole_vec3_t f_b)
 {
     insole_vec3_t f = insole_quat_rotate(q, f_b);
     insole_quat_t tilt = insole_quat(insole_vec3_norm(f) + f.z, f.y, -f.x, INSOLE_R(0.0));
-    return insole_quat_normalize(insole_quat_mul(insole_quat_normalize(tilt), q));
+    return insole_quat_chain(insole_quat_normalize(tilt), q);
 }
 
 insole_real_t insole_quat_turn(insole_quat_t from, insole_quat_t to)

@@ -104,7 +104,7 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf,
     }
     insole_quat_t level = insole_quat_from_gravity(mean_accel_mps2); /* [TwoOrder] table 1 */
     insole_quat_t turn = insole_quat_from_yaw(yaw_rad - insole_quat_yaw(level));
-    ekf->q = insole_quat_normalize(insole_quat_mul(turn, level));
+    ekf->q = insole_quat_chain(turn, level);
     ekf->C = insole_quat_to_mat3(ekf->q);
     ekf->v_mps = insole_vec3_zero();
     ekf->last_accel_mps2 = mean_accel_mps2;
@@ -262,7 +262,7 @@ static void inject(insole_zupt_ekf_t *ekf, const insole_zupt_error_t *dx)
     /* (2I + Omega)(2I - Omega)^-1 is the rotation of the quaternion (1, a/2) made unit. */
     insole_vec3_t half = insole_vec3_scale(dx->a, INSOLE_R(0.5));
     insole_quat_t cayley = insole_quat(INSOLE_R(1.0), half.x, half.y, half.z);
-    ekf->q = insole_quat_normalize(insole_quat_mul(cayley, ekf->q)); /* [TwoOrder (30)-(31)] */
+    ekf->q = insole_quat_chain(cayley, ekf->q); /* [TwoOrder (30)-(31)] */
     ekf->C = insole_quat_to_mat3(ekf->q);
 }
 

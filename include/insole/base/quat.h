@@ -64,6 +64,9 @@ insole_vec3_t insole_quat_rotate_back(insole_quat_t q, insole_vec3_t v);
 /** To unit length; a quaternion of no length becomes the identity. */
 insole_quat_t insole_quat_normalize(insole_quat_t q);
 
+/** The product of two, brought to unit length. */
+insole_quat_t insole_quat_chain(insole_quat_t a, insole_quat_t b);
+
 /** Rotation by the angle |v| about v [rad]. */
 insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad);
 
