@@ -193,5 +193,5 @@ void insole_cloud_source_spread(const insole_cloud_source_t *source, insole_real
         particle->y_m = y;
     }
     particle->offset_rad =
-        insole_wrap_pi(particle->offset_rad + share * source->sigma_offset_rad * turn);
+        insole_wrap_near(particle->offset_rad + share * source->sigma_offset_rad * turn);
 }

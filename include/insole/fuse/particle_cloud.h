@@ -126,7 +126,7 @@ static inline void insole_cloud_wander(insole_particle_t *particle,
     insole_real_t of_offset, of_scale;
     insole_rng_normals(rng, &of_offset, &of_scale);
     particle->offset_rad =
-        insole_wrap_pi(particle->offset_rad + stride->apart_wander_rad * of_offset);
+        insole_wrap_near(particle->offset_rad + stride->apart_wander_rad * of_offset);
     particle->scale += stride->apart_scale * of_scale;
 }
 
@@ -137,7 +137,8 @@ static inline void insole_cloud_walk(insole_particle_t *particle,
 {
     insole_real_t along, across, one = INSOLE_R(1.0);
     insole_rng_normals(rng, &along, &across);
-    particle->offset_rad = insole_wrap_pi(particle->offset_rad + stride->sigma_wander_rad * across);
+    particle->offset_rad =
+        insole_wrap_near(particle->offset_rad + stride->sigma_wander_rad * across);
     insole_turn_t direction =
         insole_cloud_direction(particle, stride->heading_rad + stride->sigma_heading_rad * across);
     insole_real_t length_m = stride->length_m * particle->scale + stride->sigma_length_m * along;
