@@ -270,3 +270,8 @@ insole_real_t insole_wrap_far(insole_real_t angle_rad)
     }
     return wrapped <= -INSOLE_PI ? wrapped + INSOLE_R(2.0) * INSOLE_PI : wrapped;
 }
+
+insole_real_t insole_wrap_pi(insole_real_t angle_rad)
+{
+    return insole_wrap_near(angle_rad);
+}

@@ -8,6 +8,11 @@ insole_quat_t insole_quat_normalize(insole_quat_t q)
     return insole_quat_unit(q);
 }
 
+insole_quat_t insole_quat_chain(insole_quat_t a, insole_quat_t b)
+{
+    return insole_quat_normalize(insole_quat_mul(a, b));
+}
+
 insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad)
 {
     insole_vec3_t v = insole_vec3_scale(rotation_rad, INSOLE_R(0.5));
@@ -29,7 +34,7 @@ INSOLE_COLD insole_quat_t insole_quat_from_gravity(insole_vec3_t f_b)
     insole_quat_t q_roll = insole_quat_from_rotvec(insole_vec3(roll, INSOLE_R(0.0), INSOLE_R(0.0)));
     insole_quat_t q_pitch =
         insole_quat_from_rotvec(insole_vec3(INSOLE_R(0.0), pitch, INSOLE_R(0.0)));
-    return insole_quat_normalize(insole_quat_mul(q_pitch, q_roll));
+    return insole_quat_chain(q_pitch, q_roll);
 }
 
 INSOLE_COLD insole_quat_t insole_quat_from_yaw(insole_real_t yaw_rad)
@@ -41,7 +46,7 @@ INSOLE_COLD insole_quat_t insole_quat_level(insole_quat_t q, insole_vec3_t f_b)
 {
     insole_vec3_t f = insole_quat_rotate(q, f_b);
     insole_quat_t tilt = insole_quat(insole_vec3_norm(f) + f.z, f.y, -f.x, INSOLE_R(0.0));
-    return insole_quat_normalize(insole_quat_mul(insole_quat_normalize(tilt), q));
+    return insole_quat_chain(insole_quat_normalize(tilt), q);
 }
 
 insole_real_t insole_quat_turn(insole_quat_t from, insole_quat_t to)
@@ -54,4 +59,14 @@ insole_real_t insole_quat_yaw(insole_quat_t q)
 {
     insole_mat3_t C = insole_quat_to_mat3(q);
     return insole_atan2(C.r1.x, C.r0.x);
+}
+
+insole_vec3_t insole_quat_rotate(insole_quat_t q, insole_vec3_t v)
+{
+    return insole_mat3_mul_vec(insole_quat_to_mat3(q), v);
+}
+
+insole_vec3_t insole_quat_rotate_back(insole_quat_t q, insole_vec3_t v)
+{
+    return insole_mat3_mul_vec_t(insole_quat_to_mat3(q), v);
 }

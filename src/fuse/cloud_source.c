@@ -204,5 +204,5 @@ void insole_cloud_source_spread(const insole_cloud_aside_t *aside, insole_partic
         particle->y_m = y;
     }
     particle->offset_rad =
-        insole_wrap_pi(particle->offset_rad + even_within(aside->offset_rad, rng));
+        insole_wrap_near(particle->offset_rad + even_within(aside->offset_rad, rng));
 }

@@ -34,7 +34,7 @@ static inline void add(insole_cloud_sum_t *sum, const insole_particle_t *particl
     insole_real_t w = weight_of(particle, sum->reference.log_weight);
     insole_real_t x = particle->x_m - sum->reference.x_m, wx = w * x;
     insole_real_t y = particle->y_m - sum->reference.y_m, wy = w * y;
-    insole_real_t turn = insole_wrap_pi(particle->offset_rad - sum->reference.offset_rad);
+    insole_real_t turn = insole_wrap_near(particle->offset_rad - sum->reference.offset_rad);
     sum->weight += w;
     sum->weight2 += w * w;
     sum->x += wx;

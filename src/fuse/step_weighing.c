@@ -102,7 +102,7 @@ static insole_real_t log_of_fix(const insole_step_weighing_t *steps,
 static insole_real_t log_of_compass(const insole_step_weighing_t *steps,
                                     const insole_particle_t *particle)
 {
-    insole_real_t off = insole_wrap_pi(particle->offset_rad - steps->compass_rad);
+    insole_real_t off = insole_wrap_near(particle->offset_rad - steps->compass_rad);
     return -HALF * insole_square(off * steps->per_sigma_compass);
 }
 

@@ -100,7 +100,7 @@ static void turn_heading(insole_attitude_t *att, insole_real_t heading_rad)
     insole_heading_t now = insole_heading(att->q, NULL);
     insole_real_t by_rad = heading_rad - now.heading_rad;
     insole_quat_t turn = insole_quat_from_yaw(by_rad);
-    att->q = insole_quat_normalize(insole_quat_mul(turn, att->q));
+    att->q = insole_quat_chain(turn, att->q);
     att->up_mps2 = insole_quat_rotate(turn, att->up_mps2);
     insole_turn_t t = insole_turn(by_rad);
     insole_sym3_t P = att->P;
@@ -137,7 +137,7 @@ static void turn(insole_attitude_t *att, insole_vec3_t rate, insole_real_t dt)
                                              dt * dt * (INSOLE_R(1.0) / INSOLE_R(12.0)), coning);
     insole_quat_t dq = insole_quat_from_rotvec(d); /* [PhoneEKF (7)], [PhoneUKF (9)] */
     /* q- = F q [PhoneEKF (9), (17)], [PhoneUKF (13)] */
-    att->q = insole_quat_normalize(insole_quat_mul(att->q, dq));
+    att->q = insole_quat_chain(att->q, dq);
 }
 
 /* Of a gyro whose axis m is at the end of its range. */
@@ -234,7 +234,7 @@ static insole_status_t correct(insole_attitude_t *att, insole_attitude_method_t 
     if (status != INSOLE_OK) {
         return INSOLE_ERR_STATE;
     }
-    att->q = insole_quat_normalize(insole_quat_mul(made.turn, att->q)); /* [PhoneEKF (20)] */
+    att->q = insole_quat_chain(made.turn, att->q); /* [PhoneEKF (20)] */
     insole_vec3_t turn = insole_vec3(made.turn.x, made.turn.y, made.turn.z);
     att->up_mps2 =
         insole_vec3_add_scaled(att->up_mps2, INSOLE_R(2.0), insole_vec3_cross(turn, att->up_mps2));

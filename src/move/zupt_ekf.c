@@ -108,7 +108,7 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf,
     }
     insole_quat_t level = insole_quat_from_gravity(mean_accel_mps2); /* [TwoOrder] table 1 */
     insole_quat_t turn = insole_quat_from_yaw(yaw_rad - insole_quat_yaw(level));
-    ekf->q = insole_quat_normalize(insole_quat_mul(turn, level));
+    ekf->q = insole_quat_chain(turn, level);
     ekf->C = insole_quat_to_mat3(ekf->q);
     ekf->v_mps = insole_vec3_zero();
     ekf->last_accel_mps2 = mean_accel_mps2;

@@ -143,7 +143,7 @@ static void look_back(insole_zupt_node_t *node, const adjoint_t *adjoint)
     after->t_us = node->t_us;
     after->p_m = insole_vec3_sub(node->p_m, less.p);
     after->v_mps = insole_vec3_sub(node->v_mps, less.v);
-    after->q = insole_quat_normalize(insole_quat_mul(turn, node->q));
+    after->q = insole_quat_chain(turn, node->q);
     after->P_pp_m2 = insole_sym3_add_scaled(node->P.pp, INSOLE_R(-1.0), gained);
 }
 

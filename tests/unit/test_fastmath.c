@@ -288,7 +288,7 @@ END_TEST
 static const struct {
     insole_real_t (*wrap)(insole_real_t);
     float from_rad;
-} WRAPS[] = {{insole_wrap_pi, 3.0f}, {insole_wrap_far, 1e-6f}};
+} WRAPS[] = {{insole_wrap_pi, 3.0f}, {insole_wrap_near, 3.0f}, {insole_wrap_far, 1e-6f}};
 
 START_TEST(wrapped_angle_is_the_same_angle)
 {
@@ -322,6 +322,7 @@ START_TEST(wrapping_leaves_a_wrapped_angle_alone)
         insole_real_t x = number_of(bits);
         worst_require(&unchanged, same_value(insole_wrap_pi(x), x), (double)x);
         worst_require(&unchanged, same_value(insole_wrap_pi(-x), -x), (double)x);
+        worst_require(&unchanged, same_value(insole_wrap_near(-x), -x), (double)x);
     }
     ASSERT_ALL_HELD(unchanged);
 }
@@ -414,7 +415,8 @@ Suite *insole_suite(void)
     suite_add(suite, "odd and even", odd_and_even);
     suite_add(suite, "monotonic", exp_and_log_never_step_back);
     suite_add(suite, "turn", turn_has_the_bits_of_cos_and_sin);
-    suite_add_loop(suite, "wrap", wrapped_angle_is_the_same_angle, 2);
+    suite_add_loop(suite, "wrap", wrapped_angle_is_the_same_angle,
+                   (int)(sizeof WRAPS / sizeof WRAPS[0]));
     suite_add(suite, "wrap leaves alone", wrapping_leaves_a_wrapped_angle_alone);
     suite_add(suite, "wrap at the cut", wrapping_at_the_cut);
 #ifndef INSOLE_DOUBLE

@@ -138,6 +138,25 @@ START_TEST(normalising_keeps_the_direction)
 }
 END_TEST
 
+/* One after the other, by matrices: both may be of any length. */
+START_TEST(a_chain_turns_as_both_do)
+{
+    insole_rng_t rng = seeded();
+    for (int n = 0; n < TRIES; n++) {
+        insole_quat_t a = sample_quat(&rng), b = sample_quat(&rng);
+        insole_quat_t longer = insole_quat(INSOLE_R(3.0) * b.w, INSOLE_R(3.0) * b.x,
+                                           INSOLE_R(3.0) * b.y, INSOLE_R(3.0) * b.z);
+        insole_quat_t chain = insole_quat_chain(a, longer);
+        insole_vec3_t v = insole_vec3(INSOLE_R(0.3), INSOLE_R(-0.5), INSOLE_R(0.8));
+        insole_vec3_t turned = insole_mat3_mul_vec(insole_quat_to_mat3(a),
+                                                   insole_mat3_mul_vec(insole_quat_to_mat3(b), v));
+        ASSERT_NEAR(norm_of(chain), 1.0, 3.0 * EPS, "");
+        ASSERT_NEAR(insole_vec3_norm(insole_vec3_sub(insole_quat_rotate(chain, v), turned)), 0.0,
+                    12.0 * EPS, "");
+    }
+}
+END_TEST
+
 START_TEST(what_has_no_direction_becomes_the_identity)
 {
     const insole_real_t bad[] = {INSOLE_R(0.0), (insole_real_t)NAN, (insole_real_t)INFINITY,
@@ -285,6 +304,7 @@ Suite *insole_suite(void)
     suite_add(suite, "definition", rotation_agrees_with_its_definition);
     suite_add(suite, "matrices", rotation_matrices_are_rotations);
     suite_add(suite, "order", a_product_turns_by_the_right_factor_first);
+    suite_add(suite, "chain", a_chain_turns_as_both_do);
     suite_add_loop(suite, "normalise", normalising_keeps_the_direction, 7);
     suite_add_loop(suite, "no direction", what_has_no_direction_becomes_the_identity, 4);
     suite_add_loop(suite, "rotation vector", rotation_vectors_turn_as_rodrigues_says, ANGLE_COUNT);

@@ -49,7 +49,10 @@ insole_real_t insole_log(insole_real_t x);
 insole_real_t insole_wrap_far(insole_real_t angle_rad);
 
 /** The same angle in (-pi, pi], for angles that are mostly within. */
-static inline insole_real_t insole_wrap_pi(insole_real_t angle_rad)
+insole_real_t insole_wrap_pi(insole_real_t angle_rad);
+
+/** As insole_wrap_pi(), for loops over particles: nothing is called for an angle within. */
+static inline insole_real_t insole_wrap_near(insole_real_t angle_rad)
 {
     return angle_rad <= -INSOLE_PI || angle_rad > INSOLE_PI ? insole_wrap_far(angle_rad)
                                                             : angle_rad;

@@ -56,16 +56,10 @@ static inline insole_mat3_t insole_quat_to_mat3(insole_quat_t q)
                             insole_vec3(xz - wy, yz + wx, INSOLE_R(1.0) - (xx + yy)));
 }
 
-static inline insole_vec3_t insole_quat_rotate(insole_quat_t q, insole_vec3_t v)
-{
-    return insole_mat3_mul_vec(insole_quat_to_mat3(q), v);
-}
+insole_vec3_t insole_quat_rotate(insole_quat_t q, insole_vec3_t v);
 
 /** Rotation by the inverse of `q`. */
-static inline insole_vec3_t insole_quat_rotate_back(insole_quat_t q, insole_vec3_t v)
-{
-    return insole_mat3_mul_vec_t(insole_quat_to_mat3(q), v);
-}
+insole_vec3_t insole_quat_rotate_back(insole_quat_t q, insole_vec3_t v);
 
 /** Square of half an angle, [rad^2], below which insole_quat_from_small holds. */
 #define INSOLE_QUAT_SMALL_RAD2 INSOLE_R(0.01)
@@ -99,6 +93,8 @@ static inline insole_quat_t insole_quat_unit(insole_quat_t q)
     insole_real_t s = INSOLE_R(1.0) / n;
     return insole_quat(q.w * s, q.x * s, q.y * s, q.z * s);
 }
+/** The product of two, brought to unit length. */
+insole_quat_t insole_quat_chain(insole_quat_t a, insole_quat_t b);
 
 /** Rotation by the angle |v| about v [rad]. */
 insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad);

@@ -12,13 +12,12 @@
 #include "insole/base/quat.h"
 #include "insole/base/status.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /** From one time stamp to a later one. */
-static inline insole_real_t insole_seconds(uint64_t from_us, uint64_t to_us)
-{
-    uint64_t us = to_us - from_us; /* in halves, each of which a processor converts */
-    insole_real_t most_us = (insole_real_t)(uint32_t)(us >> 32) * INSOLE_R(4294967296.0);
-    return (most_us + (insole_real_t)(uint32_t)us) * INSOLE_R(1.0e-6);
-}
+insole_real_t insole_seconds(uint64_t from_us, uint64_t to_us);
 
 /** Rounded, of a time from 0 to an hour. */
 static inline uint32_t insole_microseconds(insole_real_t s)
@@ -181,5 +180,9 @@ typedef struct {
     insole_real_t var_heading_rad2;
     insole_fix_state_t state;
 } insole_fix_t;
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -126,7 +126,7 @@ static inline void insole_cloud_wander(insole_particle_t *particle,
 {
     insole_normals_t off = insole_rng_normals(rng);
     particle->offset_rad =
-        insole_wrap_pi(particle->offset_rad + stride->apart_wander_rad * off.first);
+        insole_wrap_near(particle->offset_rad + stride->apart_wander_rad * off.first);
     particle->scale += stride->apart_scale * off.second;
 }
 
@@ -141,7 +141,8 @@ static inline void insole_cloud_walk(insole_particle_t *particle,
     }
     insole_normals_t off = insole_rng_normals(rng);
     insole_real_t along = off.first, across = off.second;
-    particle->offset_rad = insole_wrap_pi(particle->offset_rad + stride->sigma_wander_rad * across);
+    particle->offset_rad =
+        insole_wrap_near(particle->offset_rad + stride->sigma_wander_rad * across);
     insole_turn_t direction =
         insole_cloud_direction(particle, stride->heading_rad + stride->sigma_heading_rad * across);
     insole_real_t length_m = stride->length_m * particle->scale + stride->sigma_length_m * along;
