@@ -210,9 +210,8 @@ insole_real_t insole_cos(insole_real_t x_rad)
 insole_turn_t insole_turn(insole_real_t x_rad)
 {
     if (!(insole_abs(x_rad) <= ANGLE_MAX_RAD)) {
-        bool is_number = x_rad == x_rad;
-        insole_turn_t beyond = {is_number ? INSOLE_R(1.0) : x_rad,
-                                is_number ? INSOLE_R(0.0) : x_rad};
+        bool is_none = x_rad != x_rad;
+        insole_turn_t beyond = {is_none ? x_rad : INSOLE_R(1.0), is_none ? x_rad : INSOLE_R(0.0)};
         return beyond;
     }
     return turn_of(x_rad);

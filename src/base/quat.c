@@ -3,39 +3,22 @@
 
 #include "insole/base/fastmath.h"
 
-/* One n-th, folded by the compiler. */
-#define SHARE(n) (INSOLE_R(1.0) / INSOLE_R(n))
-
 insole_quat_t insole_quat_normalize(insole_quat_t q)
 {
-    insole_real_t n = insole_sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    if (!(n > INSOLE_R(0.0)) || !insole_is_finite(n)) {
-        return insole_quat_identity();
-    }
-    insole_real_t s = INSOLE_R(1.0) / n;
-    return insole_quat(q.w * s, q.x * s, q.y * s, q.z * s);
+    return insole_quat_unit(q);
 }
 
 insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad)
 {
-    insole_real_t half2 = INSOLE_R(0.25) * insole_vec3_norm2(rotation_rad);
-    insole_real_t c, s; /* cos(half), sin(half) / (2 half) */
-    if (half2 < INSOLE_R(0.01)) {
-        /* what these series leave out is below the last bit, and with two more terms of a double */
-        const insole_real_t one = INSOLE_R(1.0), z = half2;
-        c = s = one;
-        if (INSOLE_REAL_EPSILON < INSOLE_R(1.0e-10)) {
-            c = one - z * SHARE(30.0) * (one - z * SHARE(56.0));
-            s = one - z * SHARE(42.0) * (one - z * SHARE(72.0));
-        }
-        c = one - z * SHARE(2.0) * (one - z * SHARE(12.0) * c);
-        s = SHARE(2.0) * (one - z * SHARE(6.0) * (one - z * SHARE(20.0) * s));
-    } else {
-        insole_real_t half = insole_sqrt(half2);
-        c = insole_cos(half);
-        s = SHARE(2.0) * insole_sin(half) / half;
+    insole_vec3_t v = insole_vec3_scale(rotation_rad, INSOLE_R(0.5));
+    insole_real_t half2 = insole_vec3_norm2(v);
+    if (half2 < INSOLE_QUAT_SMALL_RAD2) {
+        return insole_quat_from_small(v, half2);
     }
-    return insole_quat(c, s * rotation_rad.x, s * rotation_rad.y, s * rotation_rad.z);
+    insole_real_t half = insole_sqrt(half2);
+    insole_turn_t turn = insole_turn(half);
+    insole_real_t s = turn.sin / half;
+    return insole_quat(turn.cos, s * v.x, s * v.y, s * v.z);
 }
 
 INSOLE_COLD insole_quat_t insole_quat_from_gravity(insole_vec3_t f_b)

@@ -29,16 +29,19 @@ insole_status_t insole_auto_start_check(const insole_auto_start_config_t *config
 }
 
 INSOLE_COLD insole_status_t insole_auto_start_init(insole_auto_start_t *start,
-                                                   const insole_auto_start_config_t *config)
+                                                   const insole_auto_start_config_t *config,
+                                                   const insole_auto_start_circles_t *circles)
 {
     if (!start || !config) {
         return INSOLE_ERR_NULL;
     }
-    if (insole_auto_start_check(config) != INSOLE_OK) {
+    if (insole_auto_start_check(config) != INSOLE_OK ||
+        (config->method == INSOLE_AUTO_START_CIRCLES && !circles)) {
         return INSOLE_ERR_VALUE;
     }
     memset(start, 0, sizeof *start);
     start->config = *config;
+    start->circles = circles;
     start->bias_m = config->bias_m;
     return INSOLE_OK;
 }
@@ -138,19 +141,6 @@ static void whiten(insole_auto_start_t *start, insole_auto_start_row_t row, inso
     add_up(&start->sums, mix(per, fresh, ZERO, fresh));
 }
 
-static void add_circle(insole_auto_start_t *start, insole_auto_start_row_t row)
-{
-    if (start->pairs >= (uint32_t)start->config.fixes) {
-        return;
-    }
-    insole_circle_pair_t pair = {row.radio, row.way};
-    start->pair[start->pairs++] = pair;
-    insole_spot_t place = insole_circle_start_place(start->pair, start->pairs);
-    insole_spot_t off = insole_spot_sub(place, start->circle_mean);
-    start->circle_mean = /* [WifiShift (1)] */
-        insole_spot_add_scaled(start->circle_mean, ONE / (insole_real_t)start->pairs, off);
-}
-
 static void take(insole_auto_start_t *start, const insole_spot_fix_t *fix)
 {
     insole_spot_t heard = insole_spot_add_scaled(insole_spot_sub(start->way, fix->since),
@@ -167,7 +157,7 @@ static void take(insole_auto_start_t *start, const insole_spot_fix_t *fix)
                                    insole_spot_sub(fix->spot, start->first_radio)};
     whiten(start, row, insole_sym2_largest(fix->cov_m2), dt_s);
     if (start->config.method == INSOLE_AUTO_START_CIRCLES) {
-        add_circle(start, row);
+        start->circles->take(start, &row);
     }
     start->fix_us = fix->t_us;
     start->fixes++;
@@ -263,6 +253,43 @@ static void find_place(const insole_auto_start_t *start, insole_real_t concentra
     answer->shared_m2 = start->shared.one * per;
 }
 
+INSOLE_COLD insole_status_t insole_auto_start_answer(const insole_auto_start_t *start,
+                                                     insole_auto_start_answer_t *answer)
+{
+    if (!start || !answer) {
+        return INSOLE_ERR_NULL;
+    }
+    if (start->fixes == 0u) {
+        return INSOLE_ERR_STATE;
+    }
+    const insole_auto_start_config_t *c = &start->config;
+    find_place(start, find_offset(start, answer), answer);
+    if (c->method == INSOLE_AUTO_START_CIRCLES) {
+        start->circles->answer(start, answer);
+    }
+    answer->cov_m2 = insole_spot_cov(answer->cov_m2);
+    answer->fixes = start->fixes;
+    bool sure = answer->var_offset_rad2 <= insole_square(c->refine_rad);
+    bool late = start->fixes >= (uint32_t)c->fixes_most;
+    answer->ready = late || (start->fixes >= (uint32_t)c->fixes && sure);
+    return INSOLE_OK;
+}
+
+/* ---- circles ------------------------------------------------------------------------------- */
+
+static void add_circle(insole_auto_start_t *start, const insole_auto_start_row_t *row)
+{
+    if (start->pairs >= (uint32_t)start->config.fixes) {
+        return;
+    }
+    insole_circle_pair_t pair = {row->radio, row->way};
+    start->pair[start->pairs++] = pair;
+    insole_spot_t place = insole_circle_start_place(start->pair, start->pairs);
+    insole_spot_t off = insole_spot_sub(place, start->circle_mean);
+    start->circle_mean = /* [WifiShift (1)] */
+        insole_spot_add_scaled(start->circle_mean, ONE / (insole_real_t)start->pairs, off);
+}
+
 /* The paper's answer in place of ours, and the difference of both in the covariances. */
 static void take_circles(const insole_auto_start_t *start, insole_auto_start_answer_t *answer)
 {
@@ -281,24 +308,4 @@ static void take_circles(const insole_auto_start_t *start, insole_auto_start_ans
     answer->offset_rad = offset_rad;
 }
 
-INSOLE_COLD insole_status_t insole_auto_start_answer(const insole_auto_start_t *start,
-                                                     insole_auto_start_answer_t *answer)
-{
-    if (!start || !answer) {
-        return INSOLE_ERR_NULL;
-    }
-    if (start->fixes == 0u) {
-        return INSOLE_ERR_STATE;
-    }
-    const insole_auto_start_config_t *c = &start->config;
-    find_place(start, find_offset(start, answer), answer);
-    if (c->method == INSOLE_AUTO_START_CIRCLES) {
-        take_circles(start, answer);
-    }
-    answer->cov_m2 = insole_spot_cov(answer->cov_m2);
-    answer->fixes = start->fixes;
-    bool sure = answer->var_offset_rad2 <= insole_square(c->refine_rad);
-    bool late = start->fixes >= (uint32_t)c->fixes_most;
-    answer->ready = late || (start->fixes >= (uint32_t)c->fixes && sure);
-    return INSOLE_OK;
-}
+const insole_auto_start_circles_t insole_auto_start_circles = {add_circle, take_circles};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/step_ekf.h"
 
-insole_step_way_t insole_step_ekf(const insole_pace_t *pace)
+INSOLE_COLD insole_step_way_t insole_step_ekf(const insole_pace_t *pace)
 {
     insole_turn_t t = insole_turn(pace->heading_rad);
     insole_real_t d = pace->length_m;

@@ -26,8 +26,8 @@ static insole_status_t check(const insole_step_fusion_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_step_fusion_init(insole_step_fusion_t *fusion,
-                                        const insole_step_fusion_config_t *config)
+INSOLE_COLD insole_status_t insole_step_fusion_init(insole_step_fusion_t *fusion,
+                                                    const insole_step_fusion_config_t *config)
 {
     if (!fusion || !config) {
         return INSOLE_ERR_NULL;
@@ -40,8 +40,9 @@ insole_status_t insole_step_fusion_init(insole_step_fusion_t *fusion,
     return INSOLE_OK;
 }
 
-insole_status_t insole_step_fusion_start(insole_step_fusion_t *fusion, insole_spot_t spot,
-                                         insole_sym2_t cov_m2, insole_real_t offset_rad)
+INSOLE_COLD insole_status_t insole_step_fusion_start(insole_step_fusion_t *fusion,
+                                                     insole_spot_t spot, insole_sym2_t cov_m2,
+                                                     insole_real_t offset_rad)
 {
     if (!fusion) {
         return INSOLE_ERR_NULL;
@@ -81,8 +82,9 @@ static insole_pace_t pace_on_map(const insole_step_fusion_t *fusion, const insol
     return in_m;
 }
 
-insole_status_t insole_step_fusion_step(insole_step_fusion_t *fusion, insole_step_method_t *method,
-                                        const insole_pace_t *pace)
+INSOLE_COLD insole_status_t insole_step_fusion_step(insole_step_fusion_t *fusion,
+                                                    insole_step_method_t *method,
+                                                    const insole_pace_t *pace)
 {
     if (!fusion || !pace) {
         return INSOLE_ERR_NULL;
@@ -187,7 +189,8 @@ static insole_status_t take(insole_step_fusion_t *fusion, const insole_spot_fix_
     return INSOLE_OK;
 }
 
-insole_status_t insole_step_fusion_fix(insole_step_fusion_t *fusion, const insole_spot_fix_t *fix)
+INSOLE_COLD insole_status_t insole_step_fusion_fix(insole_step_fusion_t *fusion,
+                                                   const insole_spot_fix_t *fix)
 {
     if (!fusion || !fix) {
         return INSOLE_ERR_NULL;
@@ -206,13 +209,14 @@ insole_status_t insole_step_fusion_fix(insole_step_fusion_t *fusion, const insol
 
 /* ---- for a tracker ---------------------------------------------------------------------- */
 
-insole_status_t insole_step_fusion_begin_state(void *state, const insole_step_filter_begin_t *begin)
+INSOLE_COLD insole_status_t insole_step_fusion_begin_state(void *state,
+                                                           const insole_step_filter_begin_t *begin)
 {
     return begin ? insole_step_fusion_start(state, begin->spot, begin->cov_m2, begin->offset_rad)
                  : INSOLE_ERR_NULL;
 }
 
-insole_status_t insole_step_fusion_fix_state(void *state, const insole_spot_fix_t *fix)
+INSOLE_COLD insole_status_t insole_step_fusion_fix_state(void *state, const insole_spot_fix_t *fix)
 {
     return insole_step_fusion_fix(state, fix);
 }

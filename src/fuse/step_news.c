@@ -38,12 +38,13 @@ static bool is_usable(insole_spot_t spot, insole_sym2_t cov_m2)
            insole_sym2_is_between(cov_m2, INSOLE_SPOT_LEAST_M2, INSOLE_SPOT_MOST_M2);
 }
 
-bool insole_spot_is_start(insole_spot_t spot, insole_sym2_t cov_m2, insole_real_t offset_rad)
+INSOLE_COLD bool insole_spot_is_start(insole_spot_t spot, insole_sym2_t cov_m2,
+                                      insole_real_t offset_rad)
 {
     return is_usable(spot, cov_m2) && insole_abs(offset_rad) <= MOST_ANGLE_RAD;
 }
 
-insole_status_t insole_spot_fix_check(const insole_spot_fix_t *fix)
+INSOLE_COLD insole_status_t insole_spot_fix_check(const insole_spot_fix_t *fix)
 {
     if (!fix) {
         return INSOLE_ERR_NULL;
@@ -52,7 +53,7 @@ insole_status_t insole_spot_fix_check(const insole_spot_fix_t *fix)
     return usable ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 
-insole_spot_t insole_pace_way(const insole_pace_t *pace, insole_real_t offset_rad)
+INSOLE_COLD insole_spot_t insole_pace_way(const insole_pace_t *pace, insole_real_t offset_rad)
 {
     insole_turn_t ahead = insole_turn(pace->heading_rad + offset_rad);
     /* [PhoneEKF (1)], [PhoneUKF (4)] */

@@ -34,11 +34,6 @@ static insole_status_t refuse(insole_attitude_t *att, insole_status_t why)
     return why;
 }
 
-static bool is_within(insole_vec3_t v, insole_real_t limit)
-{
-    return insole_vec3_is_finite(v) && insole_vec3_max_abs(v) <= limit;
-}
-
 insole_status_t insole_attitude_check(const insole_attitude_config_t *config)
 {
     typedef insole_attitude_config_t config_t;
@@ -46,7 +41,8 @@ insole_status_t insole_attitude_check(const insole_attitude_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_attitude_init(insole_attitude_t *att, const insole_attitude_config_t *config)
+INSOLE_COLD insole_status_t insole_attitude_init(insole_attitude_t *att,
+                                                 const insole_attitude_config_t *config)
 {
     if (!att || !config) {
         return INSOLE_ERR_NULL;
@@ -57,7 +53,8 @@ insole_status_t insole_attitude_init(insole_attitude_t *att, const insole_attitu
     memset(att, 0, sizeof *att);
     att->config = *config;
     att->q = insole_quat_identity();
-    att->upset_cos = config->upset_rad < INSOLE_PI ? insole_cos(config->upset_rad) : -INSOLE_R(2.0);
+    att->upset_cos =
+        config->upset_rad < INSOLE_PI ? insole_turn(config->upset_rad).cos : -INSOLE_R(2.0);
     return INSOLE_OK;
 }
 
@@ -88,7 +85,7 @@ static void begin_levelling(insole_attitude_t *att, uint64_t t_us)
 }
 
 /* Up points where the mean force says. */
-static void level(insole_attitude_t *att)
+INSOLE_COLD static void level(insole_attitude_t *att)
 {
     insole_vec3_t f_b = insole_quat_rotate_back(att->q, att->up_mps2);
     insole_real_t tilt_rad2 = insole_square(att->config.sigma_level_rad);
@@ -114,7 +111,7 @@ static void turn_heading(insole_attitude_t *att, insole_real_t heading_rad)
     att->P.xy = insole_vec3_dot(x, Py);
 }
 
-static insole_status_t start(insole_attitude_t *att, const insole_imu_t *imu)
+INSOLE_COLD static insole_status_t start(insole_attitude_t *att, const insole_imu_t *imu)
 {
     insole_real_t g = att->config.gravity_mps2, f = insole_vec3_norm(imu->accel_mps2);
     if (!(f > HALF * g && f < INSOLE_R(2.0) * g)) {
@@ -144,8 +141,8 @@ static void turn(insole_attitude_t *att, insole_vec3_t rate, insole_real_t dt)
 }
 
 /* Of a gyro whose axis m is at the end of its range. */
-static void gather_clip_noise(insole_attitude_t *att, const insole_mat3_t *C, uint32_t clipped,
-                              insole_real_t dt)
+INSOLE_COLD static void gather_clip_noise(insole_attitude_t *att, const insole_mat3_t *C,
+                                          uint32_t clipped, insole_real_t dt)
 {
     insole_mat3_t axes = insole_mat3_transpose(*C);
     const insole_vec3_t *axis[3] = {&axes.r0, &axes.r1, &axes.r2};
@@ -173,7 +170,7 @@ static void gather_noise(insole_attitude_t *att, const insole_mat3_t *C, insole_
 }
 
 /* P- = F P F' + Q: seen from n, errors are not changed by a turn of b, and F P F' is P. */
-static void add_noise(insole_attitude_t *att)
+INSOLE_COLD static void add_noise(insole_attitude_t *att)
 {
     widen(&att->P, att->waiting_rad2); /* [PhoneEKF (18)], [PhoneUKF (13)] */
     att->waiting_rad2 = insole_sym3_zero();
@@ -181,7 +178,7 @@ static void add_noise(insole_attitude_t *att)
 }
 
 /* What an interval without samples may hide. */
-static void bridge(insole_attitude_t *att, insole_real_t gap_s, uint64_t t_us)
+INSOLE_COLD static void bridge(insole_attitude_t *att, insole_real_t gap_s, uint64_t t_us)
 {
     insole_real_t blind_rad = gap_s * att->config.gap_turn_radps;
     insole_real_t variance = insole_min(insole_square(blind_rad), MOST_VAR_RAD2);
@@ -210,7 +207,7 @@ static bool is_upset(const insole_attitude_t *att)
     return up > HALF * att->config.gravity_mps2 && att->up_mps2.z < up * att->upset_cos;
 }
 
-static void recover(insole_attitude_t *att)
+INSOLE_COLD static void recover(insole_attitude_t *att)
 {
     insole_real_t lost = insole_square(UPSET_HEADING_RAD);
     level(att);
@@ -303,8 +300,8 @@ insole_status_t insole_attitude_push(insole_attitude_t *att, insole_attitude_met
     if (!att || !imu) {
         return INSOLE_ERR_NULL;
     }
-    if (!is_within(imu->accel_mps2, MOST_ACCEL_MPS2) ||
-        !is_within(imu->gyro_radps, MOST_GYRO_RADPS)) {
+    if (!insole_vec3_is_within(imu->accel_mps2, MOST_ACCEL_MPS2) ||
+        !insole_vec3_is_within(imu->gyro_radps, MOST_GYRO_RADPS)) {
         return refuse(att, INSOLE_ERR_VALUE);
     }
     if (!att->aligned) {
@@ -326,7 +323,8 @@ insole_status_t insole_attitude_observe(insole_attitude_t *att, insole_attitude_
     if (!att || !method || !sighting) {
         return INSOLE_ERR_NULL;
     }
-    if (!is_within(sighting->known, MOST_SIGHTING) || !is_within(sighting->seen, MOST_SIGHTING) ||
+    if (!insole_vec3_is_within(sighting->known, MOST_SIGHTING) ||
+        !insole_vec3_is_within(sighting->seen, MOST_SIGHTING) ||
         !(sighting->variance > ZERO && insole_is_finite(sighting->variance))) {
         return refuse(att, INSOLE_ERR_VALUE);
     }
@@ -336,12 +334,13 @@ insole_status_t insole_attitude_observe(insole_attitude_t *att, insole_attitude_
     return INSOLE_OK;
 }
 
-insole_status_t insole_attitude_set_bias(insole_attitude_t *att, insole_vec3_t gyro_bias_radps)
+INSOLE_COLD insole_status_t insole_attitude_set_bias(insole_attitude_t *att,
+                                                     insole_vec3_t gyro_bias_radps)
 {
     if (!att) {
         return INSOLE_ERR_NULL;
     }
-    if (!is_within(gyro_bias_radps, MOST_BIAS_RADPS)) {
+    if (!insole_vec3_is_within(gyro_bias_radps, MOST_BIAS_RADPS)) {
         return refuse(att, INSOLE_ERR_VALUE);
     }
     insole_vec3_t step = insole_vec3_sub(gyro_bias_radps, att->gyro_bias_radps);
@@ -350,8 +349,9 @@ insole_status_t insole_attitude_set_bias(insole_attitude_t *att, insole_vec3_t g
     return INSOLE_OK;
 }
 
-insole_status_t insole_attitude_set_heading(insole_attitude_t *att, insole_real_t heading_rad,
-                                            insole_real_t sigma_rad)
+INSOLE_COLD insole_status_t insole_attitude_set_heading(insole_attitude_t *att,
+                                                        insole_real_t heading_rad,
+                                                        insole_real_t sigma_rad)
 {
     if (!att) {
         return INSOLE_ERR_NULL;

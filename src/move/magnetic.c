@@ -23,7 +23,7 @@ static insole_status_t refuse(insole_magnetic_t *magnetic, insole_status_t why)
 
 static bool is_field(insole_vec3_t v)
 {
-    return insole_vec3_is_finite(v) && insole_vec3_max_abs(v) <= MOST_UT;
+    return insole_vec3_is_within(v, MOST_UT);
 }
 
 insole_status_t insole_magnetic_check(const insole_magnetic_config_t *config)

@@ -53,8 +53,9 @@ insole_status_t insole_step_length_check(const insole_step_length_config_t *conf
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_step_length(const insole_step_length_config_t *config,
-                                   const insole_footfall_t *footfall, insole_real_t *length_m)
+INSOLE_COLD insole_status_t insole_step_length(const insole_step_length_config_t *config,
+                                               const insole_footfall_t *footfall,
+                                               insole_real_t *length_m)
 {
     if (!config || !footfall || !length_m) {
         return INSOLE_ERR_NULL;

@@ -3,9 +3,8 @@
 
 #include <string.h>
 
-#define ZERO    INSOLE_R(0.0)
-#define TWELFTH (INSOLE_R(1.0) / INSOLE_R(12.0))
-#define SIXTH   (INSOLE_R(1.0) / INSOLE_R(6.0))
+#define ZERO  INSOLE_R(0.0)
+#define SIXTH (INSOLE_R(1.0) / INSOLE_R(6.0))
 
 /* Long enough that a block of yaw noise is not lost to rounding beside a day's yaw variance, short
  * enough that noise of a swing still turns into velocity within the swing. */
@@ -25,7 +24,7 @@ static const insole_real_t LEAST_SIGMA_M = INSOLE_R(1.0e-4), MOST_SIGMA_M = INSO
 const insole_zupt_ekf_config_t insole_zupt_ekf_defaults = {
     INSOLE_ZUPT_EKF_KEYS(INSOLE_CONFIG_DEFAULT)};
 
-static insole_status_t refuse(insole_zupt_ekf_t *ekf, insole_status_t why)
+INSOLE_COLD static insole_status_t refuse(insole_zupt_ekf_t *ekf, insole_status_t why)
 {
     ekf->refused++;
     return why;
@@ -41,16 +40,10 @@ static bool is_within(insole_vec3_t v, insole_real_t limit)
     return insole_abs(v.x) <= limit && insole_abs(v.y) <= limit && insole_abs(v.z) <= limit;
 }
 
-/* Not true of what is no number. */
-static bool is_shorter(insole_vec3_t v, insole_real_t limit)
-{
-    return insole_vec3_norm2(v) <= insole_square(limit);
-}
-
 static void begin_trace(insole_zupt_ekf_t *ekf, insole_zupt_step_t step)
 {
     ekf->trace.step = step;
-    ekf->trace.q = ekf->q;
+    ekf->trace.q = insole_quat(ekf->q.w, ekf->q.x, ekf->q.y, ekf->q.z);
     ekf->trace.velocity_var_m2ps2 = ZERO;
     ekf->trace.height_var_m2 = ZERO;
 }
@@ -80,7 +73,7 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf,
     return INSOLE_OK;
 }
 
-static void forget_motion(insole_zupt_cov_t *P)
+INSOLE_COLD static void forget_motion(insole_zupt_cov_t *P)
 {
     P->vv = insole_sym3_zero();
     P->pv = P->pa = P->va = insole_mat3_zero();
@@ -120,64 +113,59 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf,
 
 /* What the sensor felt over the interval. A sample lies between the mean of its interval and the
  * value at its end, where the mean would be half way `back` to the sample before. */
-static insole_vec3_t part_way(insole_vec3_t now, insole_real_t part, insole_vec3_t back)
+static insole_vec3_t mean_of(insole_vec3_t now, insole_real_t part, insole_vec3_t back)
 {
     return insole_vec3_add_scaled(now, part, back);
 }
 
-/* With the coning term of two samples, whose rate grows evenly: d = w dt + (w_prev x w) dt^2 / 12,
- * in the first term the mean over the interval, in the second the samples as they are. */
-static void turn(insole_zupt_ekf_t *ekf, insole_vec3_t gyro, insole_vec3_t back, insole_real_t part,
-                 insole_real_t dt)
+/* Turns by twice `half_rad`. */
+static void turn(insole_zupt_ekf_t *ekf, insole_vec3_t half_rad)
 {
-    insole_vec3_t coning = insole_vec3_cross(back, gyro);
-    insole_vec3_t mean = part_way(gyro, part, back);
-    insole_vec3_t d = insole_vec3_scale(insole_vec3_add_scaled(mean, dt * TWELFTH, coning), dt);
-    insole_quat_t dq = insole_quat_from_rotvec(d); /* [TwoOrder (12)-(13)] */
-    ekf->q = insole_quat_mul(ekf->q, dq);          /* [TwoOrder (14)] */
+    insole_real_t half2 = insole_vec3_norm2(half_rad);
+    insole_quat_t dq = half2 < INSOLE_QUAT_SMALL_RAD2
+                           ? insole_quat_from_small(half_rad, half2)
+                           : insole_quat_from_rotvec(insole_vec3_add(half_rad, half_rad));
+    ekf->q = insole_quat_mul(ekf->q, dq); /* [TwoOrder (12)-(14)] */
     ekf->C = insole_quat_to_mat3(ekf->q);
-}
-
-/* Mean specific force of the interval, seen from the attitude at its end: half the rotation is
- * taken back, m x w dt / 2, and the sculling term of two samples added, (w_prev x a + a_prev x w)
- * dt / 12. Written with the differences `back` to the samples before, and but for a share of their
- * own product, both are one product. */
-static insole_vec3_t mean_force(insole_vec3_t accel, insole_vec3_t back_accel, insole_vec3_t gyro,
-                                insole_vec3_t back_gyro, insole_real_t part, insole_real_t dt)
-{
-    insole_vec3_t a = part_way(accel, part + SIXTH, back_accel);
-    insole_vec3_t w = part_way(gyro, part - SIXTH, back_gyro);
-    insole_vec3_t mean = part_way(accel, part, back_accel);
-    return insole_vec3_add_scaled(mean, INSOLE_R(0.5) * dt, insole_vec3_cross(a, w));
 }
 
 /* Velocity and position, [TwoOrder (16)-(17)]; u: what the specific force adds to the velocity. */
 static void move(insole_zupt_ekf_t *ekf, insole_vec3_t u, insole_real_t dt)
 {
+    insole_vec3_t before = ekf->v_mps;
     u.z -= ekf->gravity_mps2 * dt;
-    insole_vec3_t middle = insole_vec3_add_scaled(ekf->v_mps, INSOLE_R(0.5), u);
-    ekf->p_m = insole_vec3_add_scaled(ekf->p_m, dt, middle);
-    ekf->v_mps = insole_vec3_add(ekf->v_mps, u);
+    ekf->v_mps = insole_vec3_add(before, u);
+    insole_vec3_t twice = insole_vec3_add(before, ekf->v_mps);
+    ekf->p_m = insole_vec3_add_scaled(ekf->p_m, INSOLE_R(0.5) * dt, twice);
 }
 
-/* Mechanisation. @return specific force in n times dt */
+/* Mechanisation. Of two samples, whose values change evenly, with w the mean turn rate, a the mean
+ * specific force and b_w, b_a the ways back to the sample before:
+ *     the half turn     half = w dt / 2, and with coning  half + cone x half,  cone = b_w dt / 12;
+ *     the mean force seen from the attitude at the end    a + (a + b_a / 6) x (half - cone):
+ * half the turn is taken back, and sculling added but for a share of the product of the ways.
+ * @return specific force in n times dt */
 static insole_vec3_t mechanise(insole_zupt_ekf_t *ekf, insole_vec3_t accel, insole_vec3_t gyro,
                                insole_real_t dt)
 {
-    insole_real_t part = INSOLE_R(0.5) * ekf->config.point_share;
+    insole_real_t part = INSOLE_R(0.5) * ekf->config.point_share, half_dt = INSOLE_R(0.5) * dt;
     insole_vec3_t back_accel = insole_vec3_sub(ekf->last_accel_mps2, accel);
     insole_vec3_t back_gyro = insole_vec3_sub(ekf->last_gyro_radps, gyro);
-    insole_vec3_t force = mean_force(accel, back_accel, gyro, back_gyro, part, dt);
-    turn(ekf, gyro, back_gyro, part, dt);
-    ekf->force_mps2 = insole_mat3_mul_vec(ekf->C, force);
+    insole_vec3_t cone = insole_vec3_scale(back_gyro, SIXTH * half_dt);
+    insole_vec3_t half = insole_vec3_scale(mean_of(gyro, part, back_gyro), half_dt);
+    insole_vec3_t mean = mean_of(accel, part, back_accel);
+    insole_vec3_t a = insole_vec3_add_scaled(mean, SIXTH, back_accel);
+    insole_vec3_t force = insole_vec3_add(mean, insole_vec3_cross(a, insole_vec3_sub(half, cone)));
     ekf->last_accel_mps2 = accel;
     ekf->last_gyro_radps = gyro;
+    turn(ekf, insole_vec3_add(half, insole_vec3_cross(cone, half)));
+    ekf->force_mps2 = insole_mat3_mul_vec(ekf->C, force);
     insole_vec3_t u = insole_vec3_scale(ekf->force_mps2, dt);
     move(ekf, u, dt);
     return u;
 }
 
-static void gather_clip_noise(insole_zupt_ekf_t *ekf, uint32_t clipped)
+INSOLE_COLD static void gather_clip_noise(insole_zupt_ekf_t *ekf, uint32_t clipped)
 {
     insole_mat3_t axes = insole_mat3_transpose(ekf->C);
     const insole_vec3_t *axis[3] = {&axes.r0, &axes.r1, &axes.r2};
@@ -189,21 +177,16 @@ static void gather_clip_noise(insole_zupt_ekf_t *ekf, uint32_t clipped)
 }
 
 /* What Q of table 1 grows with, put aside until a block is full. */
-static void gather_noise(insole_zupt_ekf_t *ekf, insole_vec3_t gyro, uint32_t clipped)
+static void gather_noise(insole_zupt_ekf_t *ekf, insole_real_t turn2, insole_real_t dt)
 {
-    ekf->noise.time_s += ekf->dt_s;
-    ekf->noise.turned_rad2ps += insole_vec3_norm2(gyro) * ekf->dt_s;
-    if (clipped != 0u) {
-        gather_clip_noise(ekf, clipped);
-    }
-    ekf->noise.samples++;
+    ekf->noise.time_s += dt;
+    ekf->noise.turned_rad2ps += turn2 * dt;
 }
 
 static void add_noise(insole_zupt_ekf_t *ekf)
 {
-    static const insole_zupt_noise_t none;
     const insole_zupt_ekf_config_t *c = &ekf->config;
-    const insole_zupt_noise_t *noise = &ekf->noise;
+    insole_zupt_noise_t *noise = &ekf->noise;
     insole_real_t attitude = insole_square(c->gyro_noise_rad_rts) * noise->time_s +
                              insole_square(c->gyro_turn_noise_rts) * noise->turned_rad2ps;
     insole_real_t velocity = insole_square(c->accel_noise_mps_rts) * noise->time_s;
@@ -213,18 +196,21 @@ static void add_noise(insole_zupt_ekf_t *ekf)
         insole_real_t bias = insole_square(c->accel_bias_walk_mps2_rts) * noise->time_s;
         ekf->P.bb = insole_sym3_add_diagonal(ekf->P.bb, bias);
     }
-    ekf->noise = none;
+    noise->time_s = noise->turned_rad2ps = ZERO;
+    noise->clip_rad2 = insole_sym3_zero();
+    noise->samples = 0u;
 }
 
 /* Rounding has had no time to be seen in the quaternion's length. */
-static void end_block(insole_zupt_ekf_t *ekf)
+INSOLE_FLAT static void end_block(insole_zupt_ekf_t *ekf)
 {
     add_noise(ekf);
-    ekf->q = insole_quat_normalize(ekf->q);
+    insole_quat_t q = insole_quat_unit(ekf->q);
+    ekf->q = ekf->trace.q = q;
 }
 
-insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu_t *imu,
-                                        uint32_t clipped)
+INSOLE_FLAT insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu_t *imu,
+                                                    uint32_t clipped)
 {
     if (!ekf || !imu) {
         return INSOLE_ERR_NULL;
@@ -232,37 +218,44 @@ insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu
     if (!ekf->aligned) {
         return refuse(ekf, INSOLE_ERR_STATE);
     }
-    if (imu->t_us <= ekf->t_us) {
-        return refuse(ekf, INSOLE_ERR_TIME);
+    uint64_t step_us = imu->t_us - ekf->t_us; /* beyond all when time went back */
+    if (step_us >> 32 != 0u || (uint32_t)step_us - 1u >= LONGEST_STEP_US) {
+        return refuse(ekf, imu->t_us <= ekf->t_us ? INSOLE_ERR_TIME : INSOLE_ERR_VALUE);
     }
-    if (imu->t_us - ekf->t_us > LONGEST_STEP_US || !is_shorter(imu->accel_mps2, MOST_ACCEL_MPS2) ||
-        !is_shorter(imu->gyro_radps, MOST_GYRO_RADPS)) {
+    insole_real_t turn2 = insole_vec3_norm2(imu->gyro_radps);
+    if (!(insole_vec3_norm2(imu->accel_mps2) <= insole_square(MOST_ACCEL_MPS2) &&
+          turn2 <= insole_square(MOST_GYRO_RADPS))) {
         return refuse(ekf, INSOLE_ERR_VALUE);
     }
-    insole_real_t dt = (insole_real_t)(uint32_t)(imu->t_us - ekf->t_us) * INSOLE_R(1.0e-6);
-    insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, ekf->accel_bias_mps2);
-    insole_vec3_t u = mechanise(ekf, accel, imu->gyro_radps, dt);
-    insole_zupt_cov_propagate(&ekf->P, u, &ekf->C, dt, has_bias(ekf));
+    insole_real_t dt = (insole_real_t)(uint32_t)step_us * INSOLE_R(1.0e-6);
     ekf->dt_s = dt;
     ekf->t_us = imu->t_us;
-    gather_noise(ekf, imu->gyro_radps, clipped);
-    if (ekf->noise.samples >= NOISE_BLOCK) {
+    gather_noise(ekf, turn2, dt);
+    insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, ekf->accel_bias_mps2);
+    insole_vec3_t u = mechanise(ekf, accel, imu->gyro_radps, dt);
+    begin_trace(ekf, INSOLE_ZUPT_STEP_PREDICT);
+    if (clipped != 0u) {
+        gather_clip_noise(ekf, clipped);
+    }
+    insole_zupt_cov_propagate(&ekf->P, u, &ekf->C, dt, has_bias(ekf));
+    if (++ekf->noise.samples >= NOISE_BLOCK) {
         end_block(ekf);
     }
-    begin_trace(ekf, INSOLE_ZUPT_STEP_PREDICT);
     return INSOLE_OK;
 }
 
 /* (28)-(31): the nominal state takes the error, whose estimate is zero again. */
-static void inject(insole_zupt_ekf_t *ekf, const insole_zupt_error_t *dx)
+static void inject(insole_zupt_ekf_t *ekf, const insole_zupt_error_t *dx, bool biased)
 {
+    if (biased) {
+        ekf->accel_bias_mps2 = insole_vec3_add(ekf->accel_bias_mps2, dx->b);
+    }
     ekf->p_m = insole_vec3_add(ekf->p_m, dx->p); /* [TwoOrder (29)] */
     ekf->v_mps = insole_vec3_add(ekf->v_mps, dx->v);
-    ekf->accel_bias_mps2 = insole_vec3_add(ekf->accel_bias_mps2, dx->b);
     /* (2I + Omega)(2I - Omega)^-1 is the rotation of the quaternion (1, a/2) made unit. */
     insole_vec3_t half = insole_vec3_scale(dx->a, INSOLE_R(0.5));
     insole_quat_t cayley = insole_quat(INSOLE_R(1.0), half.x, half.y, half.z);
-    ekf->q = insole_quat_normalize(insole_quat_mul(cayley, ekf->q)); /* [TwoOrder (30)-(31)] */
+    ekf->q = insole_quat_unit(insole_quat_mul(cayley, ekf->q)); /* [TwoOrder (30)-(31)] */
     ekf->C = insole_quat_to_mat3(ekf->q);
 }
 
@@ -274,7 +267,7 @@ static insole_vec3_t rolling_velocity(const insole_zupt_ekf_t *ekf)
     return insole_vec3(w.y * h, -w.x * h, ZERO); /* w x (0, 0, h) */
 }
 
-insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *nis)
+INSOLE_FLAT insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *nis)
 {
     if (!ekf) {
         return INSOLE_ERR_NULL;
@@ -292,11 +285,12 @@ insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *n
     ekf->trace.velocity_mps = rolling_velocity(ekf);
     ekf->trace.velocity_var_m2ps2 = r;
     insole_vec3_t z = insole_vec3_sub(ekf->trace.velocity_mps, ekf->v_mps);
-    insole_zupt_error_t dx = insole_zupt_cov_correct_velocity(&ekf->P, W, r, z, has_bias(ekf));
-    inject(ekf, &dx);
     if (nis) {
         *nis = insole_vec3_dot(z, insole_sym3_mul_vec(W, z)); /* z' S^-1 z */
     }
+    bool biased = has_bias(ekf);
+    insole_zupt_error_t dx = insole_zupt_cov_correct_velocity(&ekf->P, W, r, z, biased);
+    inject(ekf, &dx, biased);
     return INSOLE_OK;
 }
 
@@ -319,7 +313,7 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ek
     insole_zupt_error_t column = insole_zupt_cov_of_height(&ekf->P);
     insole_zupt_error_t dx = insole_zupt_error_scale(column, (height_m - ekf->p_m.z) * per_s);
     insole_zupt_cov_correct_height(&ekf->P, r);
-    inject(ekf, &dx);
+    inject(ekf, &dx, has_bias(ekf));
     ekf->trace.height_m = height_m;
     ekf->trace.height_var_m2 = r;
     return INSOLE_OK;

@@ -35,15 +35,6 @@ static uint32_t place_of(const insole_heard_t *heard, uint32_t ap)
     return low;
 }
 
-static void drop(insole_heard_t *heard, uint32_t at)
-{
-    heard->count--;
-    for (; at < heard->count; at++) {
-        heard->ap[at] = heard->ap[at + 1u];
-        heard->dbm[at] = heard->dbm[at + 1u];
-    }
-}
-
 static uint32_t weakest(const insole_heard_t *heard)
 {
     uint32_t at = 0;
@@ -53,18 +44,26 @@ static uint32_t weakest(const insole_heard_t *heard)
     return at;
 }
 
-static void insert(insole_heard_t *heard, uint32_t ap, insole_real_t dbm)
+static void move(insole_heard_t *heard, uint32_t from, uint32_t to)
 {
-    uint32_t at = place_of(heard, ap);
-    for (uint32_t i = heard->count; i > at; i--) {
-        heard->ap[i] = heard->ap[i - 1u];
-        heard->dbm[i] = heard->dbm[i - 1u];
-    }
-    heard->ap[at] = (uint16_t)ap;
-    heard->dbm[at] = dbm;
-    heard->count++;
+    heard->ap[to] = heard->ap[from];
+    heard->dbm[to] = heard->dbm[from];
 }
 
+/* The place `at` is free; between its neighbours it may not be the right one. */
+static void insert(insole_heard_t *heard, uint32_t at, const insole_rss_t *reading)
+{
+    for (; at > 0u && heard->ap[at - 1u] > reading->id; at--) {
+        move(heard, at - 1u, at);
+    }
+    for (; at + 1u < heard->count && heard->ap[at + 1u] < reading->id; at++) {
+        move(heard, at + 1u, at);
+    }
+    heard->ap[at] = (uint16_t)reading->id;
+    heard->dbm[at] = reading->rss_dbm;
+}
+
+/* One that is new takes a place at the end, or that of the weakest. */
 static void take(insole_heard_t *heard, const insole_rss_t *reading)
 {
     uint32_t at = place_of(heard, reading->id);
@@ -72,14 +71,14 @@ static void take(insole_heard_t *heard, const insole_rss_t *reading)
         heard->dbm[at] = insole_max(heard->dbm[at], reading->rss_dbm);
         return;
     }
-    if (heard->count == (uint32_t)INSOLE_HEARD_MAX) {
-        uint32_t least = weakest(heard);
-        if (reading->rss_dbm <= heard->dbm[least]) {
-            return;
-        }
-        drop(heard, least);
+    if (heard->count < (uint32_t)INSOLE_HEARD_MAX) {
+        insert(heard, heard->count++, reading);
+        return;
     }
-    insert(heard, reading->id, reading->rss_dbm);
+    uint32_t least = weakest(heard);
+    if (reading->rss_dbm > heard->dbm[least]) {
+        insert(heard, least, reading);
+    }
 }
 
 insole_status_t insole_heard_gather(insole_heard_t *heard, uint32_t ap_count, uint32_t age_max_us,

@@ -31,7 +31,8 @@ static insole_status_t check(const insole_kde_fix_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_kde_fix_init(insole_kde_fix_t *kde, const insole_kde_fix_config_t *config)
+INSOLE_COLD insole_status_t insole_kde_fix_init(insole_kde_fix_t *kde,
+                                                const insole_kde_fix_config_t *config)
 {
     if (!kde || !config) {
         return INSOLE_ERR_NULL;
@@ -62,9 +63,10 @@ static void take_offset_off(insole_kde_fix_t *kde)
                          : sum;
 }
 
-insole_status_t insole_kde_fix_begin(insole_kde_fix_t *kde, const insole_radio_map_t *map,
-                                     const insole_trusted_area_t *area,
-                                     const insole_rss_t *readings, uint32_t count)
+INSOLE_COLD insole_status_t insole_kde_fix_begin(insole_kde_fix_t *kde,
+                                                 const insole_radio_map_t *map,
+                                                 const insole_trusted_area_t *area,
+                                                 const insole_rss_t *readings, uint32_t count)
 {
     if (!kde) {
         return INSOLE_ERR_NULL;
@@ -171,8 +173,9 @@ static void tell_misfit(const insole_kde_fix_t *kde, insole_radio_fix_t *fix)
     }
 }
 
-insole_status_t insole_kde_fix_finish(insole_kde_fix_t *kde, const insole_radio_map_t *map,
-                                      insole_radio_fix_t *fix)
+INSOLE_COLD insole_status_t insole_kde_fix_finish(insole_kde_fix_t *kde,
+                                                  const insole_radio_map_t *map,
+                                                  insole_radio_fix_t *fix)
 {
     if (!kde || !fix) {
         return INSOLE_ERR_NULL;

@@ -3,10 +3,11 @@
 
 #include <stddef.h>
 
-insole_status_t insole_map_search_begin(insole_map_search_t *search, const insole_radio_map_t *map,
-                                        const insole_trusted_area_t *area, int32_t readings_min,
-                                        insole_real_t age_max_s, const insole_rss_t *readings,
-                                        uint32_t count)
+INSOLE_COLD insole_status_t insole_map_search_begin(insole_map_search_t *search,
+                                                    const insole_radio_map_t *map,
+                                                    const insole_trusted_area_t *area,
+                                                    int32_t readings_min, insole_real_t age_max_s,
+                                                    const insole_rss_t *readings, uint32_t count)
 {
     if (!search || !map || !readings) {
         return INSOLE_ERR_NULL;
@@ -86,7 +87,8 @@ void insole_map_search_add(insole_map_search_t *search, const insole_radio_map_t
     insole_spot_mixture_add(&search->mixture, point, map->spots[point], log_weight);
 }
 
-insole_status_t insole_map_search_finish(insole_map_search_t *search, const insole_radio_map_t *map)
+INSOLE_COLD insole_status_t insole_map_search_finish(insole_map_search_t *search,
+                                                     const insole_radio_map_t *map)
 {
     if (!search || !map) {
         return INSOLE_ERR_NULL;

@@ -64,6 +64,14 @@ static insole_status_t screen(problem_t *problem)
     return problem->used > 0u ? INSOLE_OK : INSOLE_ERR_STATE;
 }
 
+static insole_status_t open_problem(problem_t *problem, const insole_anchor_fix_t *fix)
+{
+    if (!problem->config || !problem->propagation || !problem->aps || !problem->readings || !fix) {
+        return INSOLE_ERR_NULL;
+    }
+    return screen(problem);
+}
+
 /* 1 / m^2: the nearer an access point sounds, the more. */
 static insole_real_t nearness(const problem_t *problem, uint32_t i, const insole_ap_t *ap)
 {
@@ -155,11 +163,8 @@ INSOLE_COLD insole_status_t insole_rss_fix_solve(const insole_rss_fix_config_t *
                                                  const insole_rss_t *readings, uint32_t count,
                                                  insole_anchor_fix_t *fix)
 {
-    if (!config || !propagation || !aps || !readings || !fix) {
-        return INSOLE_ERR_NULL;
-    }
     problem_t problem = {config, propagation, aps, ap_count, readings, count, 0u, ZERO, ZERO, ZERO};
-    insole_status_t status = screen(&problem);
+    insole_status_t status = open_problem(&problem, fix);
     if (status != INSOLE_OK) {
         return status;
     }
@@ -179,11 +184,8 @@ insole_status_t insole_rss_fix_centroid(const insole_rss_fix_config_t *config,
                                         const insole_rss_t *readings, uint32_t count,
                                         insole_anchor_fix_t *fix)
 {
-    if (!config || !propagation || !aps || !readings || !fix) {
-        return INSOLE_ERR_NULL;
-    }
     problem_t problem = {config, propagation, aps, ap_count, readings, count, 0u, ZERO, ZERO, ZERO};
-    insole_status_t status = screen(&problem);
+    insole_status_t status = open_problem(&problem, fix);
     if (status != INSOLE_OK) {
         return status;
     }

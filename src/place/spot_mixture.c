@@ -47,8 +47,9 @@ void insole_spot_mixture_add(insole_spot_mixture_t *mixture, uint32_t number, in
     mixture->yy += rest * y_m * y_m;
 }
 
-void insole_spot_mixture_cov(const insole_spot_mixture_t *mixture, insole_spot_t at,
-                             insole_real_t sigma_m, insole_real_t widen, insole_radio_fix_t *fix)
+INSOLE_COLD void insole_spot_mixture_cov(const insole_spot_mixture_t *mixture, insole_spot_t at,
+                                         insole_real_t sigma_m, insole_real_t widen,
+                                         insole_radio_fix_t *fix)
 {
     insole_real_t x_m = at.x_m - mixture->mean.x_m, y_m = at.y_m - mixture->mean.y_m;
     insole_real_t scale = widen / mixture->weight, point_m2 = sigma_m * sigma_m;

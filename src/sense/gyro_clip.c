@@ -21,6 +21,13 @@ static const insole_real_t TOP_PER_FALL = INSOLE_R(3.0);
 /* A top that some rate exceeds by this factor is none of the sensor's. */
 static const insole_real_t DISPROOF = INSOLE_R(1.2);
 
+/* Slower rates are no peak, tell nothing of the range and do not reach its end. */
+static insole_real_t quiet_square(const insole_gyro_clip_t *clip)
+{
+    insole_real_t end = clip->share * clip->range_radps;
+    return insole_square(end > ZERO ? insole_min(end, PEAK_FROM_RADPS) : PEAK_FROM_RADPS);
+}
+
 INSOLE_COLD insole_status_t insole_gyro_clip_init(insole_gyro_clip_t *clip,
                                                   insole_real_t range_radps, insole_real_t share)
 {
@@ -34,6 +41,7 @@ INSOLE_COLD insole_status_t insole_gyro_clip_init(insole_gyro_clip_t *clip,
     memset(clip, 0, sizeof *clip);
     clip->told_radps = clip->range_radps = range_radps;
     clip->share = share;
+    clip->quiet_radps2 = quiet_square(clip);
     return INSOLE_OK;
 }
 
@@ -108,16 +116,6 @@ static bool is_clipped(insole_gyro_clip_t *clip, uint32_t axis, insole_real_t ra
     return clip->range_radps > ZERO && size >= clip->share * clip->range_radps;
 }
 
-/* Nothing to follow, to learn or to mark: what most samples are. */
-static bool is_plain(const insole_gyro_clip_t *clip, insole_vec3_t gyro)
-{
-    insole_real_t largest = insole_vec3_max_abs(gyro);
-    bool told = clip->told_radps > ZERO, known = clip->range_radps > ZERO;
-    return !clip->in_peak && largest <= PEAK_FROM_RADPS &&
-           (told || largest <= clip->largest_radps) &&
-           !(known && largest >= clip->share * clip->range_radps);
-}
-
 static void remember(insole_gyro_clip_t *clip, insole_vec3_t gyro)
 {
     clip->peak[0].last_radps = insole_abs(gyro.x);
@@ -131,8 +129,8 @@ static uint8_t follow(insole_gyro_clip_t *clip, insole_vec3_t gyro, insole_real_
     bool y = is_clipped(clip, 1u, gyro.y, dt_us);
     bool z = is_clipped(clip, 2u, gyro.z, dt_us);
     const insole_clip_peak_t *peak = clip->peak;
-    clip->in_peak =
-        peak[0].top_radps > ZERO || peak[1].top_radps > ZERO || peak[2].top_radps > ZERO;
+    bool in_peak = peak[0].top_radps > ZERO || peak[1].top_radps > ZERO || peak[2].top_radps > ZERO;
+    clip->quiet_radps2 = in_peak ? ZERO : quiet_square(clip);
     return (uint8_t)((x ? 1u : 0u) | (y ? 2u : 0u) | (z ? 4u : 0u));
 }
 
@@ -148,10 +146,10 @@ insole_status_t insole_gyro_clip_push(insole_gyro_clip_t *clip, insole_vec3_t gy
     if (!(dt_us > ZERO)) {
         static const insole_clip_peak_t none;
         clip->peak[0] = clip->peak[1] = clip->peak[2] = none;
-        clip->in_peak = false;
+        clip->quiet_radps2 = quiet_square(clip);
     }
     *axes = 0u;
-    if (is_plain(clip, gyro_radps)) {
+    if (insole_vec3_norm2(gyro_radps) < clip->quiet_radps2) {
         remember(clip, gyro_radps);
     } else {
         *axes = follow(clip, gyro_radps, dt_us);

@@ -73,8 +73,8 @@ static insole_real_t likeness_at(const insole_rhythm_t *rhythm, uint32_t lag)
     return power > ZERO ? insole_min(INSOLE_R(2.0) * product / power, ONE) : ZERO;
 }
 
-insole_status_t insole_rhythm_likeness(const insole_rhythm_t *rhythm, uint64_t lag_us,
-                                       insole_real_t *likeness)
+INSOLE_COLD insole_status_t insole_rhythm_likeness(const insole_rhythm_t *rhythm, uint64_t lag_us,
+                                                   insole_real_t *likeness)
 {
     if (!rhythm || !likeness) {
         return INSOLE_ERR_NULL;

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "insole/sense/spike.h"
+
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
 
@@ -13,17 +15,11 @@ static const insole_real_t GYRO_LIMIT_RADPS = INSOLE_R(100.0);
 /* A later stamp is no time; sums and differences of earlier ones fit into 64 bits. */
 static const uint64_t LATEST_US = (uint64_t)INT64_MAX;
 
-/* A neighbour of a spike lies this much nearer to the other neighbour than to the spike. */
-static const insole_real_t SPIKE_SHARE = INSOLE_R(0.25);
+/* Longer intervals than this are all the same. */
+static const uint32_t FAR_US = 1u << 30;
 
-/* The clock behind the stamps: gains of its phase and period per sample, the interval that makes a
- * burst, and how far a stamp may lie from it before it starts anew. */
-enum { CLOCK_INTERVALS = 20 };
-static const insole_real_t CLOCK_PHASE_GAIN = INSOLE_R(0.05);
-static const insole_real_t CLOCK_PERIOD_GAIN = INSOLE_R(0.0006);
-static const insole_real_t CLOCK_REACH_US = INSOLE_R(30000.0);
-static const insole_real_t BURST_INTERVAL_SHARE = INSOLE_R(0.75);
-static const insole_real_t BURST_WEIGHT = INSOLE_R(0.01);
+/* Two vectors shorter than this share of a spike cannot be one away from each other. */
+static const insole_real_t CALM_SHARE = INSOLE_R(0.49);
 
 /* An interval this much shorter than that of the highest rate is still one of it. */
 static const insole_real_t INTERVAL_SHARE = INSOLE_R(0.98);
@@ -50,7 +46,20 @@ insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_
     screen->gap_us = insole_microseconds(config->gap_s);
     screen->hold_us = insole_microseconds(config->hold_s);
     screen->least_us = insole_microseconds(INTERVAL_SHARE / config->max_rate_hz);
+    screen->calm_accel2 =
+        insole_square(insole_min(CALM_SHARE * config->spike_accel_mps2, ACCEL_LIMIT_MPS2));
     return insole_gyro_clip_init(&screen->clip, config->gyro_range_radps, config->clip_share);
+}
+
+/* The sample that waits for its successor, and the slot of the one before it. */
+static insole_screen_slot_t *pending(insole_screen_t *s)
+{
+    return &s->slots[s->newest];
+}
+
+static insole_screen_slot_t *before(insole_screen_t *s)
+{
+    return &s->slots[s->newest ^ 1u];
 }
 
 /* ---- fields ----------------------------------------------------------------------------- */
@@ -86,13 +95,26 @@ static bool hold_fields(insole_imu_t *imu, const insole_imu_t *last)
     return held > 0u;
 }
 
-/* Bad fields are held for a while; false: the sample is of no use. */
-static bool repair_fields(insole_screen_t *s, insole_imu_t *imu)
+/* Not true of a sample with a bad field either. */
+static bool is_calm(const insole_screen_t *s, const insole_imu_t *imu)
 {
-    if (!hold_fields(imu, &s->pending.imu)) {
-        s->good_us = imu->t_us;
+    return insole_vec3_norm2(imu->accel_mps2) < s->calm_accel2 &&
+           insole_vec3_norm2(imu->gyro_radps) < s->calm_gyro2;
+}
+
+/* Bad fields are held for a while; false: the sample is of no use. */
+INSOLE_APART static bool repair_fields(insole_screen_t *s, insole_imu_t *imu,
+                                       insole_screen_look_t *look)
+{
+    const insole_imu_t *last = &pending(s)->clean.imu;
+    *look = INSOLE_SCREEN_LIVELY;
+    if (!hold_fields(imu, last)) {
         return true;
     }
+    if (s->look != INSOLE_SCREEN_HELD) {
+        s->good_us = last->t_us;
+    }
+    *look = INSOLE_SCREEN_HELD;
     s->counts.not_finite++;
     return s->held > 0u && imu->t_us - s->good_us <= s->hold_us;
 }
@@ -100,42 +122,32 @@ static bool repair_fields(insole_screen_t *s, insole_imu_t *imu)
 /* ---- stamps ----------------------------------------------------------------------------- */
 
 /* The sample held back was alone in jumping far ahead. */
-static bool has_jumped(const insole_screen_t *s, uint64_t t_us)
+static bool has_jumped(insole_screen_t *s, uint64_t t_us)
 {
+    uint64_t last_us = pending(s)->clean.imu.t_us, before_us = before(s)->clean.imu.t_us;
     if (s->held == 1u) { /* the first of all: nothing says that it was right */
-        return !s->has_spare && s->raw_us - t_us > s->gap_us;
+        return s->look != INSOLE_SCREEN_OUT && last_us - t_us > s->gap_us;
     }
-    return t_us > s->raw_before_us && s->raw_us - s->raw_before_us > s->gap_us &&
-           t_us - s->raw_before_us <= s->gap_us;
+    return t_us > before_us && last_us - before_us > s->gap_us && t_us - before_us <= s->gap_us;
 }
 
 /* The stream is again as it was before the sample held back came. */
 static void drop_pending(insole_screen_t *s)
 {
-    s->pending = s->before;
-    s->raw_us = s->raw_before_us;
-    s->last_us = s->before.imu.t_us;
-    s->good_us = s->raw_before_us;
+    s->newest ^= 1u;
     s->held--;
-    s->has_spare = s->held > 0u;
+    s->look = s->held > 0u ? INSOLE_SCREEN_OUT : INSOLE_SCREEN_LIVELY;
 }
 
 /* A stamp that does not advance is dropped, or else the one that it follows. */
-static bool is_in_time(insole_screen_t *s, uint64_t t_us)
+INSOLE_APART static bool is_believed(insole_screen_t *s, uint64_t t_us)
 {
-    if (t_us > LATEST_US) {
-        s->counts.wild++;
-        return false;
-    }
-    if (s->held == 0u || t_us > s->raw_us) {
-        return true;
-    }
     if (has_jumped(s, t_us)) {
         s->counts.wild++;
         drop_pending(s);
         return true;
     }
-    if (t_us == s->raw_us) {
+    if (t_us == pending(s)->clean.imu.t_us) {
         s->counts.repeated++;
     } else {
         s->counts.backward++;
@@ -144,128 +156,73 @@ static bool is_in_time(insole_screen_t *s, uint64_t t_us)
     return false;
 }
 
-/* Nothing is known of the time since the sample before: no sample came, or a run of them was
- * dropped because the clock had been put back. */
-static bool is_after_gap(const insole_screen_t *s, uint64_t t_us)
+static bool is_in_time(insole_screen_t *s, uint64_t t_us)
 {
-    if (s->held == 0u) {
+    if (t_us > LATEST_US) {
+        s->counts.wild++;
         return false;
     }
-    insole_real_t dropped_us =
-        s->back_run > 0u ? (insole_real_t)s->back_run * s->clock.period_us : ZERO;
-    return t_us - s->raw_us > s->gap_us || dropped_us > (insole_real_t)s->gap_us;
+    return s->held == 0u || t_us > pending(s)->clean.imu.t_us || is_believed(s, t_us);
 }
 
-/* ---- bursts ----------------------------------------------------------------------------- */
-
-/* A stamp that follows the one before this soon was read late, with its successor. */
-static bool follows_too_soon(const insole_even_clock_t *clock, insole_real_t dt_us)
+/* Time since the sample before. */
+static uint32_t raw_interval_us(insole_screen_t *s, uint64_t t_us)
 {
-    return dt_us < BURST_INTERVAL_SHARE * clock->period_us;
+    uint64_t since_us = t_us - pending(s)->clean.imu.t_us;
+    return s->held > 0u && since_us < FAR_US ? (uint32_t)since_us : FAR_US;
 }
 
-/* The clock ticks on by its period and is drawn towards the stamp that came. */
-static void tick(insole_even_clock_t *clock, insole_real_t dt_us)
+/* Nothing is known of the time since the sample before: no sample came, or a run of them was
+ * dropped because the clock had been put back. */
+static bool is_after_gap(insole_screen_t *s, uint32_t dt_us)
 {
-    insole_real_t error_us = dt_us - clock->period_us - clock->lead_us; /* raw less expected */
-    clock->burst_share +=
-        BURST_WEIGHT * ((follows_too_soon(clock, dt_us) ? ONE : ZERO) - clock->burst_share);
-    if (insole_abs(error_us) > CLOCK_REACH_US) {
-        clock->lead_us = ZERO;
-        return;
+    insole_real_t dropped_us = ZERO;
+    if (s->back_run > 0u) {
+        dropped_us = (insole_real_t)s->back_run * s->clock.period_us;
+        s->back_run = 0u;
     }
-    clock->lead_us = -(ONE - CLOCK_PHASE_GAIN) * error_us;
-    clock->period_us += CLOCK_PERIOD_GAIN * error_us;
-}
-
-static void learn_period(insole_even_clock_t *clock, uint32_t dt_us)
-{
-    clock->span_us += dt_us;
-    if (++clock->intervals == CLOCK_INTERVALS) {
-        clock->period_us = (insole_real_t)clock->span_us / (insole_real_t)CLOCK_INTERVALS;
-    }
+    return dt_us > s->gap_us || dropped_us > (insole_real_t)s->gap_us;
 }
 
 /* What the even stamp adds to the raw one: nothing unless stamps come in bursts. */
-static int32_t even_lead_us(insole_screen_t *s, uint32_t dt_us, bool after_gap)
+static int32_t even_lead_us(insole_screen_t *s, uint32_t dt_us, bool known)
 {
-    insole_even_clock_t *clock = &s->clock;
-    if (after_gap) {
-        clock->lead_us = ZERO;
+    if (!known) {
+        insole_even_clock_restart(&s->clock);
         return 0;
     }
-    if (!(clock->period_us > ZERO)) {
-        learn_period(clock, dt_us);
-        return 0;
-    }
-    tick(clock, (insole_real_t)dt_us);
-    if (clock->burst_share < s->config.burst_share) {
+    if (insole_even_clock_tick(&s->clock, dt_us) != INSOLE_OK ||
+        s->clock.burst_share < s->config.burst_share) {
         return 0;
     }
     s->counts.evened++;
-    return (int32_t)clock->lead_us; /* at most CLOCK_REACH_US */
-}
-
-/* The stamp to use; always later than the one before. */
-static uint64_t even_stamp(insole_screen_t *s, uint64_t t_us, bool after_gap)
-{
-    if (s->held == 0u) {
-        return t_us;
-    }
-    int64_t dt_us = (int64_t)(t_us - s->last_us);
-    dt_us += even_lead_us(s, (uint32_t)(t_us - s->raw_us), after_gap);
-    return s->last_us + (dt_us > 0 ? (uint64_t)dt_us : 1u);
+    return (int32_t)s->clock.lead_us; /* at most INSOLE_EVEN_CLOCK_REACH_US */
 }
 
 /* ---- spikes ----------------------------------------------------------------------------- */
 
-static bool mend_spike(insole_real_t before, insole_real_t *middle, insole_real_t after,
-                       insole_real_t limit)
+/* The pending sample, between the one before it and the one that has come. */
+static void mend(insole_screen_t *s, const insole_imu_t *after, uint32_t since_us)
 {
-    insole_real_t rise = *middle - before, fall = *middle - after;
-    insole_real_t least = insole_min(insole_abs(rise), insole_abs(fall));
-    bool spike =
-        rise * fall > ZERO && least > limit && insole_abs(after - before) < SPIKE_SHARE * least;
-    if (spike) {
-        *middle = INSOLE_R(0.5) * (before + after);
-    }
-    return spike;
-}
-
-static bool mend_spikes(insole_vec3_t before, insole_vec3_t *middle, insole_vec3_t after,
-                        insole_real_t limit)
-{
-    if (is_shorter(insole_vec3_sub(*middle, before), limit)) {
-        return false;
-    }
-    bool x = mend_spike(before.x, &middle->x, after.x, limit);
-    bool y = mend_spike(before.y, &middle->y, after.y, limit);
-    bool z = mend_spike(before.z, &middle->z, after.z, limit);
-    return x || y || z;
-}
-
-static void mend(insole_screen_t *s, const insole_imu_t *after)
-{
-    if (s->held < 2u || after->t_us - s->before.imu.t_us > s->gap_us) {
+    insole_screen_slot_t *slot = pending(s);
+    if (s->held < 2u || slot->since_us + since_us > s->gap_us) {
         return;
     }
-    const insole_imu_t *before = &s->before.imu;
-    insole_imu_t *middle = &s->pending.imu;
-    bool accel = mend_spikes(before->accel_mps2, &middle->accel_mps2, after->accel_mps2,
-                             s->config.spike_accel_mps2);
-    bool gyro = mend_spikes(before->gyro_radps, &middle->gyro_radps, after->gyro_radps,
-                            s->config.spike_gyro_radps);
+    const insole_imu_t *first = &before(s)->clean.imu;
+    insole_imu_t *middle = &slot->clean.imu;
+    bool accel = insole_spike_mend(first->accel_mps2, &middle->accel_mps2, after->accel_mps2,
+                                   s->config.spike_accel_mps2);
+    bool gyro = insole_spike_mend(first->gyro_radps, &middle->gyro_radps, after->gyro_radps,
+                                  s->config.spike_gyro_radps);
     s->counts.spikes += accel || gyro ? 1u : 0u;
 }
 
 /* ---- clipping --------------------------------------------------------------------------- */
 
-static uint8_t clip_marks(insole_screen_t *s, const insole_imu_t *imu, bool after_gap)
+static uint8_t clip_marks(insole_screen_t *s, insole_vec3_t gyro, insole_real_t dt_us)
 {
-    bool known = s->held > 0u && !after_gap;
-    insole_real_t dt_us = known ? (insole_real_t)(uint32_t)(imu->t_us - s->last_us) : ZERO;
     uint8_t axes = 0u;
-    (void)insole_gyro_clip_push(&s->clip, imu->gyro_radps, dt_us, &axes);
+    (void)insole_gyro_clip_push(&s->clip, gyro, dt_us, &axes);
     s->counts.clipped += axes != 0u ? 1u : 0u;
     return axes;
 }
@@ -289,61 +246,117 @@ static void sum_clear(insole_screen_t *s)
     s->sum_count = 0u;
 }
 
-static insole_status_t give(insole_screen_t *s, const insole_clean_t *c, insole_clean_t *clean)
+/* The stamp that the sample that waits goes out with. */
+static uint64_t even_stamp(insole_screen_t *s)
 {
-    *clean = *c;
-    s->out_us = c->imu.t_us;
-    s->has_out = true;
-    return INSOLE_OK;
+    const insole_screen_slot_t *slot = pending(s);
+    return slot->clean.imu.t_us + (uint64_t)(int64_t)slot->lead_us;
 }
 
-static insole_status_t give_mean(insole_screen_t *s, uint64_t t_us, insole_clean_t *clean)
+static void write_pending(insole_screen_t *s, insole_clean_t *clean)
+{
+    *clean = pending(s)->clean;
+    clean->imu.t_us = even_stamp(s);
+}
+
+static void write_mean(insole_screen_t *s, uint64_t t_us, insole_clean_t *clean)
 {
     insole_real_t per_s = ONE / s->sum_s;
-    insole_clean_t mean = {
-        {t_us, insole_vec3_scale(s->sum_accel, per_s), insole_vec3_scale(s->sum_gyro, per_s)},
-        s->sum_marks};
+    clean->imu.t_us = t_us;
+    clean->imu.accel_mps2 = insole_vec3_scale(s->sum_accel, per_s);
+    clean->imu.gyro_radps = insole_vec3_scale(s->sum_gyro, per_s);
+    clean->marks = s->sum_marks;
     sum_clear(s);
-    return give(s, &mean, clean);
 }
 
-/* A sample on its way out, alone or as the last of those that fill the shortest interval. */
-static insole_status_t average(insole_screen_t *s, const insole_clean_t *c, insole_clean_t *clean)
+/* One of the samples that fill the shortest interval; the last of them takes all with it. */
+INSOLE_APART static insole_status_t average(insole_screen_t *s, insole_clean_t *clean)
 {
-    uint64_t since_us = s->has_out ? c->imu.t_us - s->out_us : s->least_us;
-    if (s->sum_count == 0u && since_us >= s->least_us) {
-        return give(s, c, clean);
+    insole_clean_t c;
+    write_pending(s, &c);
+    if (s->sum_count == 0u) {
+        s->out_us = c.imu.t_us - pending(s)->since_us;
     }
+    uint64_t since_us = c.imu.t_us - s->out_us;
     insole_real_t weight_s = insole_seconds(0u, since_us) - s->sum_s;
-    sum_add(s, c, insole_max(weight_s, INSOLE_R(1.0e-6)));
+    sum_add(s, &c, insole_max(weight_s, INSOLE_R(1.0e-6)));
     if (since_us < s->least_us) {
         s->counts.averaged++;
         return INSOLE_ERR_STATE;
     }
-    return give_mean(s, c->imu.t_us, clean);
+    write_mean(s, c.imu.t_us, clean);
+    return INSOLE_OK;
 }
 
 /* ---- the stream ------------------------------------------------------------------------- */
 
+/* The sample that waits, on its way out. */
 static insole_status_t release(insole_screen_t *s, insole_clean_t *clean)
 {
-    s->before = s->pending;
-    if (s->has_spare) { /* has gone out before */
-        s->has_spare = false;
-        return INSOLE_ERR_STATE;
+    if (s->sum_count > 0u || pending(s)->since_us < s->least_us) {
+        return average(s, clean);
     }
-    s->counts.gaps += (s->before.marks & INSOLE_MARK_GAP) != 0u ? 1u : 0u;
-    return average(s, &s->before, clean);
+    write_pending(s, clean);
+    return INSOLE_OK;
 }
 
-static void take_in(insole_screen_t *s, const insole_clean_t *next, uint64_t raw_us)
+/* The same for one that may have a mark, have gone out already, or not be there. */
+INSOLE_APART static insole_status_t release_any(insole_screen_t *s, insole_clean_t *clean)
 {
-    s->pending = *next;
-    s->last_us = next->imu.t_us;
-    s->raw_before_us = s->raw_us;
-    s->raw_us = raw_us;
-    s->back_run = 0u;
-    s->held = s->held > 0u ? 2u : 1u;
+    if (s->held == 0u || s->look == INSOLE_SCREEN_OUT) {
+        return INSOLE_ERR_STATE;
+    }
+    s->counts.gaps += (pending(s)->clean.marks & INSOLE_MARK_GAP) != 0u ? 1u : 0u;
+    return release(s, clean);
+}
+
+/* What is calm, and follows the like, is neither clipped nor next to a spike. The watch for
+ * clipping has seen no calm sample: of several it wants to know the last. */
+INSOLE_APART static uint8_t look_closely(insole_screen_t *s, const insole_imu_t *imu,
+                                         uint32_t since_us, bool known)
+{
+    uint8_t gap = s->held > 0u && !known ? INSOLE_MARK_GAP : 0u;
+    if (s->look == INSOLE_SCREEN_CALM) {
+        (void)clip_marks(s, pending(s)->clean.imu.gyro_radps, ONE);
+    }
+    uint8_t axes = clip_marks(s, imu->gyro_radps, known ? (insole_real_t)since_us : ZERO);
+    insole_real_t calm_gyro =
+        insole_square(insole_min(CALM_SHARE * s->config.spike_gyro_radps, GYRO_LIMIT_RADPS));
+    s->calm_gyro2 = insole_min(calm_gyro, s->clip.quiet_radps2);
+    mend(s, imu, since_us);
+    return axes | gap;
+}
+
+/* A sample in time, its fields repaired, takes the place of the one before that which waits. */
+static insole_status_t take_in(insole_screen_t *s, const insole_imu_t *imu,
+                               insole_screen_look_t look, insole_clean_t *clean)
+{
+    insole_screen_slot_t *slot = before(s);
+    uint32_t dt_us = raw_interval_us(s, imu->t_us);
+    bool known = !is_after_gap(s, dt_us);
+    int32_t lead_us = even_lead_us(s, dt_us, known);
+    int32_t since_us = (int32_t)dt_us + lead_us - pending(s)->lead_us;
+    if (since_us < 1) { /* stamps advance */
+        lead_us += 1 - since_us;
+        since_us = 1;
+    }
+    insole_status_t status;
+    uint8_t marks = 0u;
+    if (known && look == INSOLE_SCREEN_CALM && s->look == INSOLE_SCREEN_CALM) {
+        status = release(s, clean);
+    } else {
+        marks = look_closely(s, imu, (uint32_t)since_us, known);
+        status = release_any(s, clean);
+        s->held = s->held > 0u ? 2u : 1u;
+        look = known || look != INSOLE_SCREEN_CALM ? look : INSOLE_SCREEN_LIVELY;
+    }
+    slot->clean.imu = *imu;
+    slot->clean.marks = marks;
+    slot->lead_us = lead_us;
+    slot->since_us = (uint32_t)since_us;
+    s->look = look;
+    s->newest ^= 1u;
+    return status;
 }
 
 insole_status_t insole_screen_push(insole_screen_t *screen, const insole_imu_t *raw,
@@ -353,22 +366,24 @@ insole_status_t insole_screen_push(insole_screen_t *screen, const insole_imu_t *
         return INSOLE_ERR_NULL;
     }
     insole_screen_t *s = screen;
-    insole_clean_t next = {*raw, 0u};
     if (s->finished) {
         return INSOLE_ERR_STATE;
     }
     s->counts.samples++;
-    if (!is_in_time(s, raw->t_us) || !repair_fields(s, &next.imu)) {
+    if (!is_in_time(s, raw->t_us)) {
         return INSOLE_ERR_STATE;
     }
-    bool after_gap = is_after_gap(s, raw->t_us);
-    next.imu.t_us = even_stamp(s, raw->t_us, after_gap);
-    next.marks = clip_marks(s, &next.imu, after_gap);
-    next.marks |= after_gap ? INSOLE_MARK_GAP : 0u;
-    mend(s, &next.imu);
-    insole_status_t status = s->held > 0u ? release(s, clean) : INSOLE_ERR_STATE;
-    take_in(s, &next, raw->t_us);
-    return status;
+    insole_screen_look_t look = INSOLE_SCREEN_CALM;
+    insole_imu_t repaired;
+    const insole_imu_t *imu = raw;
+    if (!is_calm(s, raw)) {
+        repaired = *raw;
+        imu = &repaired;
+        if (!repair_fields(s, &repaired, &look)) {
+            return INSOLE_ERR_STATE;
+        }
+    }
+    return take_in(s, imu, look, clean);
 }
 
 insole_status_t insole_screen_finish(insole_screen_t *screen, insole_clean_t *clean)
@@ -377,12 +392,11 @@ insole_status_t insole_screen_finish(insole_screen_t *screen, insole_clean_t *cl
         return INSOLE_ERR_NULL;
     }
     insole_screen_t *s = screen;
+    insole_status_t status = s->finished ? INSOLE_ERR_STATE : release_any(s, clean);
     s->finished = true;
-    if (s->held > 0u) {
-        s->held = 0u;
-        if (release(s, clean) == INSOLE_OK) {
-            return INSOLE_OK;
-        }
+    if (status != INSOLE_OK && s->sum_count > 0u) {
+        write_mean(s, even_stamp(s), clean);
+        status = INSOLE_OK;
     }
-    return s->sum_count > 0u ? give_mean(s, s->before.imu.t_us, clean) : INSOLE_ERR_STATE;
+    return status;
 }

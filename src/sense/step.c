@@ -30,7 +30,8 @@ insole_status_t insole_step_check(const insole_step_config_t *config)
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_step_init(insole_step_counter_t *counter, const insole_step_config_t *config)
+INSOLE_COLD insole_status_t insole_step_init(insole_step_counter_t *counter,
+                                             const insole_step_config_t *config)
 {
     if (!counter || !config) {
         return INSOLE_ERR_NULL;
@@ -156,7 +157,7 @@ static insole_real_t likeness_since(const insole_step_counter_t *c, uint64_t pea
 }
 
 /* The peak can not be corrected any more: it is a step, if this is a walk. */
-static void close_peak(insole_step_counter_t *c)
+INSOLE_COLD static void close_peak(insole_step_counter_t *c)
 {
     const insole_step_config_t *s = &c->config;
     insole_real_t likeness =
@@ -329,8 +330,8 @@ insole_status_t insole_step_next(insole_step_counter_t *counter, insole_footfall
     return INSOLE_OK;
 }
 
-insole_status_t insole_step_held(const insole_step_counter_t *counter, uint32_t number,
-                                 insole_footfall_t *footfall)
+INSOLE_COLD insole_status_t insole_step_held(const insole_step_counter_t *counter, uint32_t number,
+                                             insole_footfall_t *footfall)
 {
     if (!counter || !footfall) {
         return INSOLE_ERR_NULL;

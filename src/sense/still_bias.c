@@ -42,19 +42,33 @@ INSOLE_COLD insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
 static void block_begin(insole_still_block_t *block, const insole_imu_t *imu)
 {
     memset(block, 0, sizeof *block);
-    block->begin_us = imu->t_us;
+    block->begin_us = (uint32_t)imu->t_us;
     block->accel0_mps2 = imu->accel_mps2;
     block->gyro0_radps = imu->gyro_radps;
 }
 
-static void block_add(insole_still_block_t *block, const insole_imu_t *imu)
+/* A sample relative to the first of its block. */
+typedef struct {
+    insole_vec3_t accel, gyro;
+    insole_real_t accel2, gyro2; /* squares */
+} relative_t;
+
+static relative_t relative(const insole_still_block_t *block, const insole_imu_t *imu)
 {
-    insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, block->accel0_mps2);
-    insole_vec3_t gyro = insole_vec3_sub(imu->gyro_radps, block->gyro0_radps);
-    block->accel = insole_vec3_add(block->accel, accel);
-    block->gyro = insole_vec3_add(block->gyro, gyro);
-    block->accel2 += insole_vec3_norm2(accel);
-    block->gyro2 += insole_vec3_norm2(gyro);
+    relative_t r;
+    r.accel = insole_vec3_sub(imu->accel_mps2, block->accel0_mps2);
+    r.gyro = insole_vec3_sub(imu->gyro_radps, block->gyro0_radps);
+    r.accel2 = insole_vec3_norm2(r.accel);
+    r.gyro2 = insole_vec3_norm2(r.gyro);
+    return r;
+}
+
+static void block_add(insole_still_block_t *block, const relative_t *r)
+{
+    block->accel = insole_vec3_add(block->accel, r->accel);
+    block->gyro = insole_vec3_add(block->gyro, r->gyro);
+    block->accel2 += r->accel2;
+    block->gyro2 += r->gyro2;
     block->count++;
 }
 
@@ -126,8 +140,8 @@ static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
     rest->gravity_mps2 += weight * (g - rest->gravity_mps2);
 }
 
-/* A full block against the one before. */
-INSOLE_COLD static void end_block(insole_still_bias_t *rest)
+/* A full block against the one before; the next one begins. */
+INSOLE_COLD static void end_block(insole_still_bias_t *rest, const insole_imu_t *last)
 {
     const insole_still_bias_config_t *c = &rest->config;
     insole_still_moments_t now = moments_of(&rest->block), *before = &rest->before;
@@ -140,14 +154,17 @@ INSOLE_COLD static void end_block(insole_still_bias_t *rest)
     }
     *before = now;
     rest->has_before = true;
+    block_begin(&rest->block, last);
 }
 
-/* Sums the sample; true when the block is full. */
-static bool fill_block(insole_still_bias_t *rest, const insole_imu_t *imu)
+static void take(insole_still_bias_t *rest, const insole_imu_t *imu, const relative_t *r)
 {
     insole_still_block_t *b = &rest->block;
-    block_add(b, imu);
-    return imu->t_us - b->begin_us >= rest->block_us && b->count > 2u;
+    rest->last_us = imu->t_us;
+    block_add(b, r);
+    if ((uint32_t)imu->t_us - b->begin_us >= rest->block_us && b->count > 2u) {
+        end_block(rest, imu);
+    }
 }
 
 /* The first sample of all, or the first after a gap. */
@@ -159,11 +176,9 @@ static void begin(insole_still_bias_t *rest, const insole_imu_t *imu)
     block_begin(&rest->block, imu);
 }
 
-insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_imu_t *imu)
+/* For a sample that may be too early, after a gap, or not finite. */
+INSOLE_APART static insole_status_t make_ready(insole_still_bias_t *rest, const insole_imu_t *imu)
 {
-    if (!rest || !imu) {
-        return INSOLE_ERR_NULL;
-    }
     bool finite = insole_vec3_is_finite(imu->accel_mps2) && insole_vec3_is_finite(imu->gyro_radps);
     if (!finite || (rest->has_first && imu->t_us <= rest->last_us)) {
         rest->refused++;
@@ -172,10 +187,23 @@ insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_i
     if (!rest->has_first || imu->t_us - rest->last_us > GAP_US) {
         begin(rest, imu);
     }
-    rest->last_us = imu->t_us;
-    if (fill_block(rest, imu)) {
-        end_block(rest);
-        block_begin(&rest->block, imu);
+    return INSOLE_OK;
+}
+
+insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_imu_t *imu)
+{
+    if (!rest || !imu) {
+        return INSOLE_ERR_NULL;
     }
+    relative_t r = relative(&rest->block, imu);
+    bool finite = insole_is_finite(r.accel2 + r.gyro2); /* a finite sum has finite parts */
+    if (!finite || !rest->has_first || imu->t_us - rest->last_us - 1u >= GAP_US) {
+        insole_status_t status = make_ready(rest, imu);
+        if (status != INSOLE_OK) {
+            return status;
+        }
+        r = relative(&rest->block, imu);
+    }
+    take(rest, imu, &r);
     return INSOLE_OK;
 }

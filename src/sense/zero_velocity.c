@@ -16,6 +16,7 @@ enum {
 
 static const insole_real_t FIRST_PERIOD_S = INSOLE_R(1.0);
 static const insole_real_t SHORTEST_PERIOD_S = INSOLE_R(0.3);
+static const uint32_t SHORTEST_PERIOD_US = 300000u;
 static const insole_real_t LONGEST_PERIOD_S = INSOLE_R(1.6);
 static const insole_real_t HABIT_WEIGHT = INSOLE_R(0.25);
 static const uint32_t LONGEST_INTERVAL_US = 50000u; /* of a rate that is worth measuring */
@@ -43,20 +44,24 @@ INSOLE_COLD insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv
     zv->config = *config;
     zv->ring = insole_ring(INSOLE_STANCE_RING);
     zv->reach_us = insole_microseconds(config->reach_s);
-    zv->past_us = zv->reach_us / (INSOLE_STANCE_PAST - 1u);
     zv->spread_us = insole_microseconds(config->spread_s);
     zv->hole_us = insole_microseconds(config->two_step_hole_s);
+    if (config->detector == INSOLE_DETECT_ADAPTIVE) {
+        zv->ahead_us = zv->reach_us;
+        zv->back_us = zv->spread_us;
+    } else if (config->detector == INSOLE_DETECT_TWO_STEP) {
+        zv->ahead_us = zv->hole_us;
+    }
     zv->period_s = FIRST_PERIOD_S;
     zv->usual_log = insole_log(config->plain_threshold);
-    for (uint32_t i = 0u; i < INSOLE_STANCE_PAST; i++) {
-        zv->past[i] = INSOLE_REAL_MAX;
-    }
+    (void)insole_past_min_init(&zv->past, zv->reach_us);
     return INSOLE_OK;
 }
 
+/* As insole_ring_slot, with a capacity that the compiler knows. */
 static insole_stance_slot_t *slot(insole_zero_velocity_t *zv, uint32_t number)
 {
-    return &zv->slots[insole_ring_slot(&zv->ring, number)];
+    return &zv->slots[number % INSOLE_STANCE_RING];
 }
 
 static insole_real_t seconds(uint32_t from_us, uint32_t to_us)
@@ -100,55 +105,35 @@ static void open_window(insole_zero_velocity_t *zv)
     (void)insole_still_window_init(&zv->window, &scale, 2u * zv->half + 1u);
 }
 
-/* The window moves on; the first that is full serves the samples before its middle as well. */
-static void measure_next(insole_zero_velocity_t *zv)
+/* Enough is there to tell the rate, or as much as there will ever be. */
+INSOLE_APART static bool can_open_window(insole_zero_velocity_t *zv)
 {
-    insole_real_t statistic;
-    const insole_stance_slot_t *s = slot(zv, zv->fed++);
-    if (insole_still_window_push(&zv->window, s->accel_mps2, s->gyro_radps, &statistic) ==
-        INSOLE_OK) {
-        while (zv->measured + zv->half != zv->fed) {
-            slot(zv, zv->measured++)->statistic = statistic;
-        }
+    if (insole_ring_count(&zv->ring) < RATE_SAMPLES && !zv->finished) {
+        return false;
     }
+    open_window(zv);
+    return true;
 }
 
+/* The window moves on; the first that is full serves the samples before its middle as well. */
 static void measure(insole_zero_velocity_t *zv)
 {
-    if (zv->half == 0u) {
-        if (insole_ring_count(&zv->ring) < RATE_SAMPLES && !zv->finished) {
-            return;
-        }
-        open_window(zv);
+    if (zv->half == 0u && !can_open_window(zv)) {
+        return;
     }
     while (zv->fed != zv->ring.end) {
-        measure_next(zv);
+        insole_real_t statistic;
+        const insole_stance_slot_t *s = slot(zv, zv->fed++);
+        if (insole_still_window_push(&zv->window, s->accel_mps2, s->gyro_radps, &statistic) ==
+            INSOLE_OK) {
+            while (zv->measured + zv->half != zv->fed) {
+                slot(zv, zv->measured++)->statistic = statistic;
+            }
+        }
     }
 }
 
 /* ---- the judgement ---------------------------------------------------------------------- */
-
-static void remember_past(insole_zero_velocity_t *zv, uint32_t t_us, insole_real_t statistic)
-{
-    for (uint32_t i = 0u; i < INSOLE_STANCE_PAST && t_us - zv->past_began_us >= zv->past_us; i++) {
-        zv->past_began_us += zv->past_us;
-        zv->past_at = (zv->past_at + 1u) % INSOLE_STANCE_PAST;
-        zv->past[zv->past_at] = INSOLE_REAL_MAX;
-    }
-    if (t_us - zv->past_began_us >= zv->past_us) {
-        zv->past_began_us = t_us; /* after a gap */
-    }
-    zv->past[zv->past_at] = insole_min(zv->past[zv->past_at], statistic);
-}
-
-static bool is_least_of_past(const insole_zero_velocity_t *zv, insole_real_t statistic)
-{
-    insole_real_t least = zv->past[0];
-    for (uint32_t i = 1u; i < INSOLE_STANCE_PAST; i++) {
-        least = insole_min(least, zv->past[i]);
-    }
-    return statistic <= least;
-}
 
 static bool is_least_of_future(insole_zero_velocity_t *zv, uint32_t number)
 {
@@ -174,18 +159,18 @@ static bool is_in_swing(const insole_zero_velocity_t *zv, const insole_stance_sl
 }
 
 /* A minimum; of several that are equal the first. */
-static bool is_guaranteed(insole_zero_velocity_t *zv, uint32_t number)
+INSOLE_APART static bool is_guaranteed(insole_zero_velocity_t *zv, uint32_t number)
 {
     const insole_stance_slot_t *k = slot(zv, number);
     bool falling = number == zv->ring.begin || k->statistic < slot(zv, number - 1u)->statistic;
     bool rising = number + 1u == zv->measured || k->statistic <= slot(zv, number + 1u)->statistic;
-    return falling && rising && k->statistic < zv->config.guaranteed_threshold &&
-           is_least_of_past(zv, k->statistic) && is_least_of_future(zv, number) &&
-           !is_in_swing(zv, k);
+    return falling && rising && k->statistic <= insole_past_min(&zv->past) &&
+           is_least_of_future(zv, number) && !is_in_swing(zv, k);
 }
 
 /* What is usual for this walker follows the stances that were found. */
-static void note_stance(insole_zero_velocity_t *zv, uint32_t t_us, insole_real_t statistic)
+INSOLE_APART static void note_stance(insole_zero_velocity_t *zv, uint32_t t_us,
+                                     insole_real_t statistic)
 {
     insole_real_t interval_s = seconds(zv->last_stance_us, t_us);
     if (zv->has_stance && interval_s >= SHORTEST_PERIOD_S && interval_s <= LONGEST_PERIOD_S) {
@@ -198,11 +183,19 @@ static void note_stance(insole_zero_velocity_t *zv, uint32_t t_us, insole_real_t
 
 static void note_plain(insole_zero_velocity_t *zv, uint32_t t_us)
 {
-    if (!zv->has_still || seconds(zv->last_still_us, t_us) > SHORTEST_PERIOD_S) {
+    if (!zv->has_still || t_us - zv->last_still_us > SHORTEST_PERIOD_US) {
         note_stance(zv, t_us, zv->config.plain_threshold);
     }
     zv->last_still_us = t_us;
     zv->has_still = true;
+}
+
+static void label_if_below(insole_zero_velocity_t *zv, uint32_t number, insole_real_t limit)
+{
+    insole_stance_slot_t *s = slot(zv, number);
+    if (s->statistic < limit) {
+        s->label |= LABEL_STILL;
+    }
 }
 
 /* The minimum and its neighbours, as far as they are nearly as still. */
@@ -210,13 +203,13 @@ static void spread(insole_zero_velocity_t *zv, uint32_t number)
 {
     const insole_stance_slot_t *k = slot(zv, number);
     insole_real_t limit = zv->config.spread_factor * k->statistic;
-    for (uint32_t i = zv->ring.begin; i != zv->measured; i++) {
-        insole_stance_slot_t *s = slot(zv, i);
-        bool after = i - number < INSOLE_STANCE_RING;
-        uint32_t apart_us = after ? s->t_us - k->t_us : k->t_us - s->t_us;
-        if (apart_us <= zv->spread_us && s->statistic < limit) {
-            s->label |= LABEL_STILL;
-        }
+    for (uint32_t i = number; i != zv->measured && slot(zv, i)->t_us - k->t_us <= zv->spread_us;
+         i++) {
+        label_if_below(zv, i, limit);
+    }
+    for (uint32_t i = number;
+         i != zv->ring.begin && k->t_us - slot(zv, i - 1u)->t_us <= zv->spread_us; i--) {
+        label_if_below(zv, i - 1u, limit);
     }
     zv->last_still_us = k->t_us;
     zv->has_still = true;
@@ -226,13 +219,13 @@ static void judge_adaptive(insole_zero_velocity_t *zv, uint32_t number)
 {
     insole_stance_slot_t *k = slot(zv, number);
     if (k->statistic < zv->config.plain_threshold) {
-        k->label |= LABEL_STILL | LABEL_PLAIN;
+        k->label = LABEL_STILL | LABEL_PLAIN;
         note_plain(zv, k->t_us);
-    } else if (is_guaranteed(zv, number)) {
+    } else if (k->statistic < zv->config.guaranteed_threshold && is_guaranteed(zv, number)) {
         note_stance(zv, k->t_us, k->statistic);
         spread(zv, number);
     }
-    remember_past(zv, k->t_us, k->statistic);
+    insole_past_min_push(&zv->past, k->t_us, k->statistic);
 }
 
 /* The sample as such, in units of the two thresholds: still below 1. Step one of [TwoOrder] 4.3. */
@@ -245,11 +238,11 @@ static insole_real_t two_step_statistic(const insole_zero_velocity_config_t *c,
 }
 
 /* Step two of [TwoOrder] 4.3: a moving sample whose stored neighbours on both sides are still. */
-static void judge_two_step(insole_zero_velocity_t *zv, uint32_t number)
+INSOLE_APART static void judge_two_step(insole_zero_velocity_t *zv, uint32_t number)
 {
     insole_stance_slot_t *k = slot(zv, number);
     if (two_step_statistic(&zv->config, k) < ONE) {
-        k->label |= LABEL_STILL | LABEL_PLAIN;
+        k->label = LABEL_STILL | LABEL_PLAIN;
         note_plain(zv, k->t_us);
         return;
     }
@@ -259,7 +252,7 @@ static void judge_two_step(insole_zero_velocity_t *zv, uint32_t number)
             return;
         }
         if (two_step_statistic(&zv->config, later) < ONE) {
-            k->label |= LABEL_STILL;
+            k->label = LABEL_STILL;
             return;
         }
     }
@@ -281,30 +274,22 @@ static insole_real_t threshold(const insole_zero_velocity_config_t *c)
 
 static void judge(insole_zero_velocity_t *zv, uint32_t number)
 {
+    insole_stance_slot_t *k = slot(zv, number);
     if (zv->config.detector == INSOLE_DETECT_ADAPTIVE) {
         judge_adaptive(zv, number);
     } else if (zv->config.detector == INSOLE_DETECT_TWO_STEP) {
         judge_two_step(zv, number);
-    } else if (slot(zv, number)->statistic < threshold(&zv->config)) {
-        slot(zv, number)->label |= LABEL_STILL | LABEL_PLAIN;
-        note_plain(zv, slot(zv, number)->t_us);
+    } else if (k->statistic < threshold(&zv->config)) {
+        k->label = LABEL_STILL | LABEL_PLAIN;
+        note_plain(zv, k->t_us);
     }
-}
-
-/* Time after a sample that its judgement looks at. */
-static uint32_t judge_ahead_us(const insole_zero_velocity_t *zv)
-{
-    return zv->config.detector == INSOLE_DETECT_ADAPTIVE   ? zv->reach_us
-           : zv->config.detector == INSOLE_DETECT_TWO_STEP ? zv->hole_us
-                                                           : 0u;
 }
 
 /* Nothing is left to wait for: the oldest of a full line must do with what there is. */
 static bool is_seen(insole_zero_velocity_t *zv, uint32_t number)
 {
-    bool crowded = insole_ring_is_full(&zv->ring) && number == zv->ring.begin;
-    return zv->finished || crowded ||
-           (uint32_t)zv->newest_us - slot(zv, number)->t_us >= judge_ahead_us(zv);
+    return (uint32_t)zv->newest_us - slot(zv, number)->t_us >= zv->ahead_us || zv->finished ||
+           (number == zv->ring.begin && insole_ring_is_full(&zv->ring));
 }
 
 static void judge_seen(insole_zero_velocity_t *zv)
@@ -312,6 +297,21 @@ static void judge_seen(insole_zero_velocity_t *zv)
     while (zv->judged != zv->measured && is_seen(zv, zv->judged)) {
         judge(zv, zv->judged++);
     }
+}
+
+INSOLE_FLAT void insole_zero_velocity_take(insole_zero_velocity_t *zv, const insole_imu_t *imu,
+                                           uint8_t tag)
+{
+    insole_stance_slot_t *s = slot(zv, zv->ring.end++);
+    s->accel_mps2 = imu->accel_mps2;
+    s->gyro_radps = imu->gyro_radps;
+    s->t_us = (uint32_t)imu->t_us;
+    s->high_us = (uint16_t)(imu->t_us >> 32);
+    s->tag = tag;
+    s->label = 0u;
+    zv->newest_us = imu->t_us;
+    measure(zv);
+    judge_seen(zv);
 }
 
 insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const insole_imu_t *imu,
@@ -334,13 +334,7 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
         zv->refused++;
         return status;
     }
-    insole_stance_slot_t s = {imu->accel_mps2, imu->gyro_radps, INSOLE_R(0.0), 0u, 0u, tag, 0u};
-    s.t_us = (uint32_t)imu->t_us;
-    s.high_us = (uint32_t)(imu->t_us >> 32);
-    zv->slots[insole_ring_push(&zv->ring)] = s;
-    zv->newest_us = imu->t_us;
-    measure(zv);
-    judge_seen(zv);
+    insole_zero_velocity_take(zv, imu, tag);
     return INSOLE_OK;
 }
 
@@ -348,7 +342,7 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
 static void measure_rest(insole_zero_velocity_t *zv)
 {
     measure(zv);
-    bool any = zv->window.count == zv->window.width;
+    bool any = zv->window.full;
     insole_real_t T = any ? slot(zv, zv->measured - 1u)->statistic : INSOLE_REAL_MAX;
     while (zv->measured != zv->ring.end) {
         slot(zv, zv->measured++)->statistic = T;
@@ -366,15 +360,12 @@ INSOLE_COLD insole_status_t insole_zero_velocity_finish(insole_zero_velocity_t *
     return INSOLE_OK;
 }
 
-/* Every sample that may still spread its stance over this one has been judged. */
+/* Every sample whose judgement may reach back to this one has been judged. */
 static bool is_released(insole_zero_velocity_t *zv, uint32_t number)
 {
-    if (number == zv->judged) {
-        return false;
-    }
-    uint32_t spread_us = zv->config.detector == INSOLE_DETECT_ADAPTIVE ? zv->spread_us : 0u;
-    return zv->finished || insole_ring_is_full(&zv->ring) ||
-           slot(zv, zv->judged)->t_us - slot(zv, number)->t_us > spread_us;
+    return number != zv->judged &&
+           (slot(zv, zv->judged)->t_us - slot(zv, number)->t_us > zv->back_us || zv->finished ||
+            insole_ring_is_full(&zv->ring));
 }
 
 insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out)
@@ -382,18 +373,18 @@ insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_lab
     if (!zv || !out) {
         return INSOLE_ERR_NULL;
     }
-    uint32_t number = zv->ring.begin;
-    if (insole_ring_count(&zv->ring) == 0u || !is_released(zv, number)) {
+    if (!is_released(zv, zv->ring.begin)) {
         return INSOLE_ERR_STATE;
     }
-    const insole_stance_slot_t *s = slot(zv, number);
-    out->imu.t_us = (uint64_t)s->high_us << 32 | s->t_us;
+    const insole_stance_slot_t *s = slot(zv, zv->ring.begin++);
+    uint32_t newest_high = (uint32_t)(zv->newest_us >> 32);
+    uint32_t high_us = newest_high - (uint16_t)(newest_high - s->high_us);
+    out->imu.t_us = (uint64_t)high_us << 32 | s->t_us;
     out->imu.accel_mps2 = s->accel_mps2;
     out->imu.gyro_radps = s->gyro_radps;
     out->statistic = s->statistic;
     out->tag = s->tag;
     out->still = (s->label & LABEL_STILL) != 0u;
     out->plain = (s->label & LABEL_PLAIN) != 0u;
-    insole_ring_pop(&zv->ring);
     return INSOLE_OK;
 }

@@ -115,43 +115,51 @@ INSOLE_COLD insole_status_t insole_foot_anchor_renew(insole_foot_anchor_t *ancho
     return INSOLE_OK;
 }
 
-static void turn_covariance(insole_fix_t *fix, insole_real_t c, insole_real_t s)
+/* 1-sigma squared of the turn at a later time. */
+static insole_real_t turn_variance(const insole_foot_anchor_t *a, uint64_t t_us)
 {
-    insole_real_t xx = fix->var_x_m2, xy = fix->cov_xy_m2, yy = fix->var_y_m2;
-    insole_real_t cs2 = INSOLE_R(2.0) * c * s * xy;
-    fix->var_x_m2 = c * c * xx - cs2 + s * s * yy;
-    fix->var_y_m2 = s * s * xx + cs2 + c * c * yy;
-    fix->cov_xy_m2 = c * s * (xx - yy) + (c * c - s * s) * xy;
+    insole_real_t age_s = t_us > a->t_us ? insole_seconds(a->t_us, t_us) : ZERO;
+    return insole_min(a->var_rad2 + insole_square(age_s * a->drift_radps), ANY_TURN_RAD2);
 }
 
 /* Rounding may leave the variance of what has just been fixed a hair below zero. */
-static void keep_positive(insole_fix_t *fix)
+static insole_real_t positive(insole_real_t variance)
 {
-    fix->var_x_m2 = insole_max(fix->var_x_m2, ZERO);
-    fix->var_y_m2 = insole_max(fix->var_y_m2, ZERO);
-    fix->var_z_m2 = insole_max(fix->var_z_m2, ZERO);
-    fix->var_heading_rad2 = insole_max(fix->var_heading_rad2, ZERO);
+    return insole_max(variance, ZERO);
+}
+
+/* What may call other functions comes first: nothing else need be kept then. */
+insole_status_t insole_foot_anchor_put(const insole_foot_anchor_t *anchor,
+                                       const insole_vec3_t *position_n_m,
+                                       const insole_sym3_t *cov_n_m2, insole_fix_t *fix)
+{
+    if (!anchor || !position_n_m || !cov_n_m2 || !fix) {
+        return INSOLE_ERR_NULL;
+    }
+    const insole_foot_anchor_t *a = anchor;
+    fix->heading_rad = insole_wrap_pi(fix->heading_rad + a->yaw_rad);
+    insole_real_t var_yaw = turn_variance(a, fix->t_us), c = a->turn.cos, s = a->turn.sin;
+    insole_real_t xx = cov_n_m2->xx, xy = cov_n_m2->xy, yy = cov_n_m2->yy;
+    insole_vec3_t d = insole_vec3_sub(*position_n_m, a->anchor_n_m);
+    insole_vec3_t way = insole_vec3(c * d.x - s * d.y, s * d.x + c * d.y, d.z);
+    insole_real_t cs2 = INSOLE_R(2.0) * c * s * xy;
+    insole_real_t var_x = c * c * xx - cs2 + s * s * yy, var_y = s * s * xx + cs2 + c * c * yy;
+    insole_real_t cov = c * s * (xx - yy) + (c * c - s * s) * xy;
+    fix->position_m = insole_vec3_add(a->anchor_m_m, way);
+    fix->var_x_m2 = positive(var_x + (a->var_m2 + var_yaw * way.y * way.y));
+    fix->cov_xy_m2 = cov - var_yaw * way.x * way.y;
+    fix->var_y_m2 = positive(var_y + (a->var_m2 + var_yaw * way.x * way.x));
+    fix->var_z_m2 = positive(cov_n_m2->zz);
+    fix->var_heading_rad2 = positive(fix->var_heading_rad2 + var_yaw);
+    return INSOLE_OK;
 }
 
 insole_status_t insole_foot_anchor_to_map(const insole_foot_anchor_t *anchor, insole_fix_t *fix)
 {
-    if (!anchor || !fix) {
+    if (!fix) {
         return INSOLE_ERR_NULL;
     }
-    const insole_foot_anchor_t *a = anchor;
-    insole_real_t c = a->turn.cos, s = a->turn.sin;
-    insole_vec3_t d = insole_vec3_sub(fix->position_m, a->anchor_n_m);
-    insole_vec3_t way = insole_vec3(c * d.x - s * d.y, s * d.x + c * d.y, d.z);
-    insole_real_t age_s = fix->t_us > a->t_us ? insole_seconds(a->t_us, fix->t_us) : ZERO;
-    insole_real_t var_yaw = a->var_rad2 + insole_square(age_s * a->drift_radps);
-    var_yaw = insole_min(var_yaw, ANY_TURN_RAD2);
-    turn_covariance(fix, c, s);
-    fix->position_m = insole_vec3_add(a->anchor_m_m, way);
-    fix->heading_rad = insole_wrap_pi(fix->heading_rad + a->yaw_rad);
-    fix->var_x_m2 += a->var_m2 + var_yaw * way.y * way.y;
-    fix->var_y_m2 += a->var_m2 + var_yaw * way.x * way.x;
-    fix->cov_xy_m2 -= var_yaw * way.x * way.y;
-    fix->var_heading_rad2 += var_yaw;
-    keep_positive(fix);
-    return INSOLE_OK;
+    insole_vec3_t position_n_m = fix->position_m;
+    insole_sym3_t P = {fix->var_x_m2, fix->cov_xy_m2, ZERO, fix->var_y_m2, ZERO, fix->var_z_m2};
+    return insole_foot_anchor_put(anchor, &position_n_m, &P, fix);
 }

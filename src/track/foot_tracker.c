@@ -48,32 +48,21 @@ INSOLE_COLD insole_status_t insole_foot_tracker_start(insole_foot_tracker_t *tra
 
 /* ---- samples in ------------------------------------------------------------------------- */
 
-static insole_status_t take_clean(insole_foot_tracker_t *t, const insole_clean_t *clean)
-{
-    (void)insole_still_bias_push(&t->still_bias, &clean->imu);
-    return insole_zero_velocity_push(&t->zero_velocity, &clean->imu, clean->marks);
-}
-
 insole_status_t insole_foot_tracker_imu(insole_foot_tracker_t *tracker, const insole_imu_t *imu)
 {
     if (!tracker || !imu) {
         return INSOLE_ERR_NULL;
     }
-    insole_status_t status = INSOLE_OK;
-    if (tracker->finished) {
-        status = INSOLE_ERR_STATE;
-    } else if (insole_ring_is_full(&tracker->zero_velocity.ring)) {
-        status = INSOLE_ERR_ROOM;
-    }
-    if (status != INSOLE_OK) {
+    if (tracker->finished || insole_ring_is_full(&tracker->zero_velocity.ring)) {
         tracker->counts.refused++;
-        return status;
+        return tracker->finished ? INSOLE_ERR_STATE : INSOLE_ERR_ROOM;
     }
     insole_clean_t clean;
     if (insole_screen_push(&tracker->screen, imu, &clean) == INSOLE_OK) {
-        status = take_clean(tracker, &clean);
+        (void)insole_still_bias_push(&tracker->still_bias, &clean.imu);
+        insole_zero_velocity_take(&tracker->zero_velocity, &clean.imu, clean.marks);
     }
-    return status;
+    return INSOLE_OK;
 }
 
 INSOLE_COLD insole_status_t insole_foot_tracker_finish(insole_foot_tracker_t *tracker)
@@ -83,7 +72,8 @@ INSOLE_COLD insole_status_t insole_foot_tracker_finish(insole_foot_tracker_t *tr
     }
     insole_clean_t clean;
     while (!tracker->finished && insole_screen_finish(&tracker->screen, &clean) == INSOLE_OK) {
-        (void)take_clean(tracker, &clean);
+        (void)insole_still_bias_push(&tracker->still_bias, &clean.imu);
+        (void)insole_zero_velocity_push(&tracker->zero_velocity, &clean.imu, clean.marks);
     }
     tracker->finished = true;
     return insole_zero_velocity_finish(&tracker->zero_velocity);
@@ -176,47 +166,53 @@ static void navigate(insole_foot_tracker_t *t, insole_labelled_t *s)
 /* ---- strides ---------------------------------------------------------------------------- */
 
 /* True when a stride ends. */
-static bool count_stride(insole_foot_tracker_t *t, const insole_labelled_t *s)
+INSOLE_APART static bool push_stride(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
     insole_real_t yaw = s->still ? insole_quat_turn(t->first_q, t->zupt_ekf.q) : ZERO;
     insole_stride_input_t in = {s->imu.t_us, t->zupt_ekf.p_m, yaw, t->zupt_ekf.force_mps2.z,
                                 s->still};
-    bool ended = insole_stride_push(&t->strides, &in, &t->stride) == INSOLE_OK;
-    if (ended) {
-        t->has_stride = true;
-        (void)insole_foot_walk_stride(&t->walk, &t->stride, s->imu.t_us);
+    if (insole_stride_push(&t->strides, &in, &t->stride) != INSOLE_OK) {
+        return false;
     }
-    return ended;
+    t->has_stride = true;
+    (void)insole_foot_walk_stride(&t->walk, &t->stride, s->imu.t_us);
+    return true;
+}
+
+static bool count_stride(insole_foot_tracker_t *t, const insole_labelled_t *s)
+{
+    return !insole_stride_go_on(&t->strides, s->imu.t_us, t->zupt_ekf.force_mps2.z, s->still) &&
+           push_stride(t, s);
 }
 
 /* ---- from n to m ------------------------------------------------------------------------ */
 
-static insole_vec3_t position_n(const insole_foot_tracker_t *t)
+static const insole_vec3_t *position_n(const insole_foot_tracker_t *t)
 {
-    return t->config.method == INSOLE_FOOT_PDR ? t->walk.place_m : t->zupt_ekf.p_m;
+    return t->config.method == INSOLE_FOOT_PDR ? &t->walk.place_m : &t->zupt_ekf.p_m;
 }
 
-static void make_fix(const insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t *fix)
+static insole_fix_state_t fix_state(const insole_foot_tracker_t *t, const insole_fix_t *fix)
 {
-    const insole_sym3_t *P = &t->zupt_ekf.P.pp;
-    insole_real_t more = t->config.method == INSOLE_FOOT_PDR ? t->walk.place_m2 : ZERO;
+    bool lost = fix->var_x_m2 + fix->var_y_m2 > insole_square(t->config.lost_sigma_m);
+    return !t->zupt_ekf.aligned ? INSOLE_FIX_ALIGN
+           : lost               ? INSOLE_FIX_LOST
+           : t->coasting        ? INSOLE_FIX_COAST
+                                : INSOLE_FIX_TRACK;
+}
+
+static void make_fix(const insole_foot_tracker_t *t, insole_fix_t *fix, uint64_t t_us)
+{
     fix->t_us = t_us;
-    fix->position_m = position_n(t);
     fix->heading_rad = t->walk.heading_rad;
-    fix->var_x_m2 = P->xx + more;
-    fix->cov_xy_m2 = P->xy;
-    fix->var_y_m2 = P->yy + more;
-    fix->var_z_m2 = P->zz + more;
     fix->var_heading_rad2 = t->zupt_ekf.P.aa.zz;
-    fix->state = INSOLE_FIX_TRACK;
-    (void)insole_foot_anchor_to_map(&t->anchor, fix);
-    if (!t->zupt_ekf.aligned) {
-        fix->state = INSOLE_FIX_ALIGN;
-    } else if (fix->var_x_m2 + fix->var_y_m2 > insole_square(t->config.lost_sigma_m)) {
-        fix->state = INSOLE_FIX_LOST;
-    } else if (t->coasting) {
-        fix->state = INSOLE_FIX_COAST;
+    if (t->config.method == INSOLE_FOOT_PDR) {
+        insole_sym3_t P = insole_sym3_add_diagonal(t->zupt_ekf.P.pp, t->walk.place_m2);
+        (void)insole_foot_anchor_put(&t->anchor, &t->walk.place_m, &P, fix);
+    } else {
+        (void)insole_foot_anchor_put(&t->anchor, &t->zupt_ekf.p_m, &t->zupt_ekf.P.pp, fix);
     }
+    fix->state = fix_state(t, fix);
 }
 
 /* Yaw is known from now on: nothing that is learned later speaks of its error before. */
@@ -228,12 +224,12 @@ static void forget_yaw(insole_zupt_cov_t *P)
     P->ab.r2 = insole_vec3_zero();
 }
 
-static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
+INSOLE_APART static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
 {
-    if (!t->has_start || t_us < t->start.t_us) {
+    if (t_us < t->start.t_us) {
         return;
     }
-    (void)insole_foot_anchor_start(&t->anchor, &t->start, position_n(t), t_us);
+    (void)insole_foot_anchor_start(&t->anchor, &t->start, *position_n(t), t_us);
     forget_place(t);
     if (t->start.has_heading) {
         forget_yaw(&t->zupt_ekf.P);
@@ -267,15 +263,6 @@ static void begin_coast(insole_foot_tracker_t *t)
     t->still_count = 0u;
     t->counts.coasts++;
     (void)insole_foot_walk_cease(&t->walk, t->zupt_ekf.t_us);
-}
-
-INSOLE_COLD static void coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
-{
-    insole_vec3_t way;
-    insole_real_t per_s = INSOLE_R(1.0) / insole_seconds(t->zupt_ekf.t_us, s->imu.t_us);
-    (void)insole_foot_walk_on(&t->walk, t->zupt_ekf.t_us, s->imu.t_us, &way);
-    (void)insole_zupt_ekf_coast(&t->zupt_ekf, insole_vec3_scale(way, per_s),
-                                t->config.sigma_walk_mps, s->imu.t_us);
 }
 
 /* The foot stands again, turned by what is usual and somewhat more or less. */
@@ -312,14 +299,25 @@ INSOLE_COLD static bool cross_gap(insole_foot_tracker_t *t, insole_labelled_t *s
 }
 
 /* The foot stands for the first time after a gap: what lies before is left behind. */
-static void leave_gap(insole_foot_tracker_t *t, uint64_t t_us, insole_fix_t *fix)
+INSOLE_APART static void leave_gap(insole_foot_tracker_t *t, uint64_t t_us)
 {
-    if (t->gap_turn_rad2 > ZERO && t->was_still && !t->coasting) {
-        make_fix(t, t_us, fix);
-        (void)insole_foot_anchor_renew(&t->anchor, fix, position_n(t), t->gap_turn_rad2);
+    if (t->was_still && !t->coasting) {
+        insole_fix_t fix;
+        make_fix(t, &fix, t_us);
+        (void)insole_foot_anchor_renew(&t->anchor, &fix, *position_n(t), t->gap_turn_rad2);
         forget_place(t);
         t->gap_turn_rad2 = ZERO;
     }
+}
+
+INSOLE_APART static void coast(insole_foot_tracker_t *t, const insole_labelled_t *s)
+{
+    insole_vec3_t way;
+    insole_real_t per_s = INSOLE_R(1.0) / insole_seconds(t->zupt_ekf.t_us, s->imu.t_us);
+    (void)insole_foot_walk_on(&t->walk, t->zupt_ekf.t_us, s->imu.t_us, &way);
+    (void)insole_zupt_ekf_coast(&t->zupt_ekf, insole_vec3_scale(way, per_s),
+                                t->config.sigma_walk_mps, s->imu.t_us);
+    end_coast(t, s);
 }
 
 /* One sample of the aligned filter; true when a stride ends. */
@@ -328,7 +326,6 @@ static bool move(insole_foot_tracker_t *t, insole_labelled_t *s)
     bool bridged = (s->tag & INSOLE_MARK_GAP) != 0u && cross_gap(t, s);
     if (t->coasting) {
         coast(t, s);
-        end_coast(t, s);
     } else if (!bridged) {
         navigate(t, s);
     }
@@ -353,24 +350,36 @@ static bool advance(insole_foot_tracker_t *t, insole_labelled_t *s)
     return stride_ended;
 }
 
+/* A labelled sample becomes a fix. */
+INSOLE_APART INSOLE_FLAT static void use(insole_foot_tracker_t *t, insole_labelled_t *s,
+                                         insole_fix_t *fix)
+{
+    if (t->counts.fixes == 0u) {
+        (void)insole_foot_anchor_init(&t->anchor, t->config.yaw_drift_radps, s->imu.t_us);
+    }
+    bool stride_ended = advance(t, s);
+    if (t->gap_turn_rad2 > ZERO) {
+        leave_gap(t, s->imu.t_us);
+    }
+    if (t->has_start) {
+        reach_start(t, s->imu.t_us);
+    }
+    if (t->anchor.strides_left > 0u) {
+        (void)insole_foot_anchor_follow(&t->anchor, *position_n(t), stride_ended);
+    }
+    make_fix(t, fix, s->imu.t_us);
+}
+
 insole_status_t insole_foot_tracker_next(insole_foot_tracker_t *tracker, insole_fix_t *fix)
 {
     if (!tracker || !fix) {
         return INSOLE_ERR_NULL;
     }
-    insole_foot_tracker_t *t = tracker;
     insole_labelled_t s;
-    if (insole_zero_velocity_next(&t->zero_velocity, &s) != INSOLE_OK) {
+    if (insole_zero_velocity_next(&tracker->zero_velocity, &s) != INSOLE_OK) {
         return INSOLE_ERR_STATE;
     }
-    if (t->counts.fixes == 0u) {
-        (void)insole_foot_anchor_init(&t->anchor, t->config.yaw_drift_radps, s.imu.t_us);
-    }
-    bool stride_ended = advance(t, &s);
-    leave_gap(t, s.imu.t_us, fix);
-    reach_start(t, s.imu.t_us);
-    (void)insole_foot_anchor_follow(&t->anchor, position_n(t), stride_ended);
-    make_fix(t, s.imu.t_us, fix);
+    use(tracker, &s, fix);
     return INSOLE_OK;
 }
 

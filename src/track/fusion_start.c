@@ -24,7 +24,7 @@ INSOLE_COLD insole_status_t insole_fusion_start_init(insole_fusion_start_t *star
     config.bias_m = BIAS_M;
     config.sigma_scale = INSOLE_R(0.02);
     config.ahead_m = ZERO;
-    insole_status_t status = insole_auto_start_init(&start->fixes, &config);
+    insole_status_t status = insole_auto_start_init(&start->fixes, &config, NULL);
     if (status == INSOLE_OK) {
         start->n_m = insole_spot(ZERO, ZERO);
     }

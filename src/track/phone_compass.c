@@ -20,8 +20,8 @@ insole_status_t insole_phone_compass_check(const insole_phone_compass_config_t *
     return insole_config_check(config, ranges, sizeof ranges / sizeof ranges[0]);
 }
 
-insole_status_t insole_phone_compass_init(insole_phone_compass_t *compass,
-                                          const insole_phone_compass_config_t *config)
+INSOLE_COLD insole_status_t insole_phone_compass_init(insole_phone_compass_t *compass,
+                                                      const insole_phone_compass_config_t *config)
 {
     if (!compass || !config) {
         return INSOLE_ERR_NULL;
@@ -82,7 +82,7 @@ bool insole_phone_compass_push(insole_phone_compass_t *compass, uint64_t t_us,
     return is_full;
 }
 
-void insole_phone_compass_forget(insole_phone_compass_t *compass)
+INSOLE_COLD void insole_phone_compass_forget(insole_phone_compass_t *compass)
 {
     begin_block(compass);
     compass->all = nothing;

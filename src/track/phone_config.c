@@ -5,7 +5,6 @@ const insole_phone_tracker_config_t insole_phone_tracker_defaults = {
     INSOLE_PHONE_TRACKER_KEYS(INSOLE_CONFIG_DEFAULT){INSOLE_SCREEN_KEYS(INSOLE_CONFIG_DEFAULT)},
     {INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_DEFAULT)},
     {INSOLE_ATTITUDE_KEYS(INSOLE_CONFIG_DEFAULT)},
-    {INSOLE_MAGNETIC_KEYS(INSOLE_CONFIG_DEFAULT)},
     {INSOLE_PHONE_WALK_KEYS(INSOLE_CONFIG_DEFAULT){INSOLE_STEP_KEYS(INSOLE_CONFIG_DEFAULT)},
      {INSOLE_STEP_LENGTH_KEYS(INSOLE_CONFIG_DEFAULT)}},
     {INSOLE_PHONE_COMPASS_KEYS(INSOLE_CONFIG_DEFAULT)},
@@ -28,7 +27,6 @@ insole_status_t insole_phone_config_check(const insole_phone_tracker_config_t *c
                insole_screen_check(&config->screen) == INSOLE_OK &&
                insole_still_bias_check(&config->still_bias) == INSOLE_OK &&
                insole_attitude_check(&config->attitude) == INSOLE_OK &&
-               insole_magnetic_check(&config->magnetic) == INSOLE_OK &&
                insole_phone_walk_check(&config->walk) == INSOLE_OK &&
                insole_phone_compass_check(&config->compass) == INSOLE_OK &&
                insole_auto_start_check(&config->auto_start) == INSOLE_OK &&

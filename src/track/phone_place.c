@@ -31,22 +31,29 @@ insole_status_t insole_phone_place_check(const insole_phone_place_config_t *conf
 insole_status_t insole_phone_place_init(insole_phone_place_t *place,
                                         const insole_phone_place_config_t *config,
                                         const insole_auto_start_config_t *config_start,
+                                        const insole_auto_start_circles_t *circles,
                                         const insole_step_filter_t *filter, bool has_radio)
 {
     if (!place || !config || !config_start || !filter) {
         return INSOLE_ERR_NULL;
     }
-    insole_auto_start_t auto_start;
     if (insole_phone_place_check(config) != INSOLE_OK || !is_whole(filter) ||
-        insole_auto_start_init(&auto_start, config_start) != INSOLE_OK) {
+        insole_auto_start_init(&place->auto_start, config_start, circles) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
-    *place = (insole_phone_place_t){
-        .config = *config, .filter = *filter, .has_radio = has_radio, .auto_start = auto_start};
+    place->config = *config;
+    place->filter = *filter;
+    place->has_radio = has_radio;
+    place->sight = (insole_phone_sight_t){.is_known = false};
+    place->start = (insole_start_t){.t_us = 0u};
+    place->has_start = place->is_started = false;
+    place->told = (insole_phone_told_t){.fixes = 0u};
+    place->starts = place->refused = 0u;
     return INSOLE_OK;
 }
 
-insole_status_t insole_phone_place_tell(insole_phone_place_t *place, const insole_start_t *start)
+INSOLE_COLD insole_status_t insole_phone_place_tell(insole_phone_place_t *place,
+                                                    const insole_start_t *start)
 {
     if (!place) {
         return INSOLE_ERR_NULL;
@@ -113,8 +120,8 @@ bool insole_phone_place_wants_direction(const insole_phone_place_t *place, uint6
     return place && is_reached(place, t_us) && place->start.has_heading;
 }
 
-insole_status_t insole_phone_place_direct(insole_phone_place_t *place, uint64_t t_us,
-                                          insole_real_t direction_rad)
+INSOLE_COLD insole_status_t insole_phone_place_direct(insole_phone_place_t *place, uint64_t t_us,
+                                                      insole_real_t direction_rad)
 {
     if (!place) {
         return INSOLE_ERR_NULL;
@@ -137,7 +144,7 @@ static insole_status_t begin_undirected(insole_phone_place_t *p, uint64_t t_us)
     if (!p->sight.is_known && !learns_offset(p) && p->has_radio) {
         insole_spot_fix_t fix = {t_us, at.spot, at.cov_m2, {ZERO, ZERO}};
         insole_auto_start_config_t config = p->auto_start.config;
-        (void)insole_auto_start_init(&p->auto_start, &config);
+        (void)insole_auto_start_init(&p->auto_start, &config, p->auto_start.circles);
         p->is_started = false;
         return insole_auto_start_fix(&p->auto_start, &fix);
     }
@@ -161,8 +168,8 @@ static insole_status_t begin_at_origin(insole_phone_place_t *p, uint64_t t_us)
     return begin(p, &at);
 }
 
-insole_status_t insole_phone_place_step(insole_phone_place_t *place, uint64_t t_us,
-                                        const insole_pace_t *pace)
+INSOLE_COLD insole_status_t insole_phone_place_step(insole_phone_place_t *place, uint64_t t_us,
+                                                    const insole_pace_t *pace)
 {
     if (!place || !pace) {
         return INSOLE_ERR_NULL;
@@ -227,7 +234,8 @@ static insole_status_t use_fix(insole_phone_place_t *p, const insole_spot_fix_t 
                          : begin_by_fixes(p, fix);
 }
 
-insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole_spot_fix_t *fix)
+INSOLE_COLD insole_status_t insole_phone_place_fix(insole_phone_place_t *place,
+                                                   const insole_spot_fix_t *fix)
 {
     if (!place || !fix) {
         return INSOLE_ERR_NULL;
@@ -248,7 +256,7 @@ insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole
     return status;
 }
 
-insole_status_t insole_phone_place_compass(insole_phone_place_t *place)
+INSOLE_COLD insole_status_t insole_phone_place_compass(insole_phone_place_t *place)
 {
     if (!place) {
         return INSOLE_ERR_NULL;
@@ -263,8 +271,8 @@ insole_status_t insole_phone_place_compass(insole_phone_place_t *place)
 
 /* ---- gaps ------------------------------------------------------------------------------- */
 
-insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_us,
-                                       insole_real_t gap_s)
+INSOLE_COLD insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_us,
+                                                   insole_real_t gap_s)
 {
     if (!place) {
         return INSOLE_ERR_NULL;
@@ -292,7 +300,8 @@ insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_u
 
 /* ---- the answer ------------------------------------------------------------------------- */
 
-static insole_step_filter_answer_t told_answer(const insole_phone_place_t *p, uint64_t t_us)
+INSOLE_COLD static insole_step_filter_answer_t told_answer(const insole_phone_place_t *p,
+                                                           uint64_t t_us)
 {
     insole_step_filter_begin_t at = at_start(p, t_us);
     insole_real_t var_rad2 =
@@ -331,8 +340,9 @@ insole_status_t insole_phone_place_answer(const insole_phone_place_t *place, uin
     return INSOLE_OK;
 }
 
-bool insole_phone_place_area(const insole_phone_place_t *place, uint64_t t_us, insole_real_t sigmas,
-                             insole_real_t least_m, insole_trusted_area_t *area)
+INSOLE_COLD bool insole_phone_place_area(const insole_phone_place_t *place, uint64_t t_us,
+                                         insole_real_t sigmas, insole_real_t least_m,
+                                         insole_trusted_area_t *area)
 {
     insole_phone_answer_t known;
     return area && insole_phone_place_answer(place, t_us, &known) == INSOLE_OK &&

@@ -9,9 +9,10 @@ static bool is_whole(const insole_radio_solver_t *solver)
     return !calls || (solver->state && calls->begin && calls->work && calls->finish);
 }
 
-insole_status_t insole_phone_radio_init(insole_phone_radio_t *radio,
-                                        const insole_radio_solver_t *solver,
-                                        const insole_radio_map_t *map, insole_real_t late_s)
+INSOLE_COLD insole_status_t insole_phone_radio_init(insole_phone_radio_t *radio,
+                                                    const insole_radio_solver_t *solver,
+                                                    const insole_radio_map_t *map,
+                                                    insole_real_t late_s)
 {
     if (!radio || !solver) {
         return INSOLE_ERR_NULL;
@@ -90,7 +91,7 @@ bool insole_phone_radio_work(insole_phone_radio_t *radio, uint32_t points)
     return radio->in_work;
 }
 
-bool insole_phone_radio_take(insole_phone_radio_t *radio)
+INSOLE_COLD bool insole_phone_radio_take(insole_phone_radio_t *radio)
 {
     bool is_new = radio && radio->is_new;
     if (is_new) {

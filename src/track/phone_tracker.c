@@ -2,6 +2,7 @@
 #include "insole/track/phone_tracker.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "insole/move/magnetic.h"
 
@@ -15,10 +16,10 @@ static bool has_filter(const insole_phone_parts_t *parts)
     return parts->filter.calls != NULL;
 }
 
-insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
-                                          const insole_phone_tracker_config_t *config,
-                                          const insole_phone_parts_t *parts,
-                                          const insole_radio_map_t *map)
+INSOLE_COLD insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
+                                                      const insole_phone_tracker_config_t *config,
+                                                      const insole_phone_parts_t *parts,
+                                                      const insole_radio_map_t *map)
 {
     if (!tracker || !config || !parts) {
         return INSOLE_ERR_NULL;
@@ -26,23 +27,27 @@ insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tracker,
     insole_phone_radio_t radio;
     if (insole_phone_config_check(config) != INSOLE_OK ||
         insole_phone_radio_init(&radio, &parts->solver, map, config->radio_late_s) != INSOLE_OK ||
-        (!has_filter(parts) && !insole_phone_radio_can_hear(&radio)) ||
-        (parts->gait.forest && insole_carry_forest_check(parts->gait.forest) != INSOLE_OK)) {
+        (!has_filter(parts) && !insole_phone_radio_can_hear(&radio))) {
         return INSOLE_ERR_VALUE;
     }
-    insole_phone_place_t place = {.starts = 0u};
-    if (has_filter(parts) &&
-        insole_phone_place_init(&place, &config->place, &config->auto_start, &parts->filter,
-                                insole_phone_radio_can_hear(&radio)) != INSOLE_OK) {
+    if (!has_filter(parts)) {
+        memset(&tracker->place, 0, sizeof tracker->place);
+    } else if (insole_phone_place_init(&tracker->place, &config->place, &config->auto_start,
+                                       parts->circles, &parts->filter,
+                                       insole_phone_radio_can_hear(&radio)) != INSOLE_OK) {
         return INSOLE_ERR_VALUE;
     }
-    *tracker = (insole_phone_tracker_t){
-        .config = *config, .parts = *parts, .radio = radio, .place = place};
-    (void)insole_phone_walk_init(&tracker->walk, &config->walk, &parts->gait);
+    memcpy(&tracker->config, config, sizeof tracker->config); /* both begin with the list */
+    tracker->parts = *parts;
+    tracker->radio = radio;
+    tracker->counts = (insole_phone_counts_t){0u};
+    tracker->t_us = 0u;
+    tracker->has_time = tracker->coasting = tracker->finished = tracker->has_fix = false;
+    tracker->fix = (insole_fix_t){0u};
+    (void)insole_phone_walk_init(&tracker->walk, &config->walk, &parts->guide);
     (void)insole_screen_init(&tracker->screen, &config->screen);
     (void)insole_still_bias_init(&tracker->still_bias, &config->still_bias);
     (void)insole_attitude_init(&tracker->attitude, &config->attitude);
-    (void)insole_magnetic_init(&tracker->magnetic, &config->magnetic);
     return insole_phone_compass_init(&tracker->compass, &config->compass);
 }
 
@@ -52,8 +57,8 @@ static insole_status_t answer(insole_phone_tracker_t *t, insole_status_t status)
     return status;
 }
 
-insole_status_t insole_phone_tracker_start(insole_phone_tracker_t *tracker,
-                                           const insole_start_t *start)
+INSOLE_COLD insole_status_t insole_phone_tracker_start(insole_phone_tracker_t *tracker,
+                                                       const insole_start_t *start)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;
@@ -77,7 +82,7 @@ static void direct_start(insole_phone_tracker_t *t)
     }
 }
 
-static void count_steps(insole_phone_tracker_t *t, const insole_imu_t *imu)
+INSOLE_APART static void count_steps(insole_phone_tracker_t *t, const insole_imu_t *imu)
 {
     insole_footfall_t footfall;
     insole_pace_t pace;
@@ -132,7 +137,7 @@ static insole_real_t offset_of(const insole_phone_tracker_t *t, const insole_pho
     return insole_wrap_pi(t->place.start.heading_rad - insole_atan2(from.sin, from.cos));
 }
 
-static void fix_by_filter(insole_phone_tracker_t *t, insole_fix_t *fix)
+INSOLE_APART static void fix_by_filter(insole_phone_tracker_t *t, insole_fix_t *fix)
 {
     insole_phone_answer_t known;
     (void)insole_phone_place_answer(&t->place, fix->t_us, &known);
@@ -153,7 +158,7 @@ static void fix_by_filter(insole_phone_tracker_t *t, insole_fix_t *fix)
     fix->state = state_of(t, &known);
 }
 
-static void fix_by_radio(const insole_phone_tracker_t *t, insole_fix_t *fix)
+INSOLE_COLD static void fix_by_radio(const insole_phone_tracker_t *t, insole_fix_t *fix)
 {
     fix->var_heading_rad2 = INSOLE_HEADING_MOST_R2;
     fix->state = INSOLE_FIX_SEARCH;
@@ -239,7 +244,7 @@ static void flush(insole_phone_tracker_t *t)
     }
 }
 
-insole_status_t insole_phone_tracker_finish(insole_phone_tracker_t *tracker)
+INSOLE_COLD insole_status_t insole_phone_tracker_finish(insole_phone_tracker_t *tracker)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;
@@ -261,9 +266,9 @@ insole_status_t insole_phone_tracker_mag(insole_phone_tracker_t *tracker, const 
         return answer(tracker, status);
     }
     tracker->counts.magnetic++;
-    if (tracker->parts.attitude) {
-        (void)insole_magnetic_push(&tracker->magnetic, &tracker->attitude, tracker->parts.attitude,
-                                   mag);
+    const insole_magnetic_part_t *magnetic = &tracker->parts.magnetic;
+    if (magnetic->push && tracker->parts.attitude) {
+        (void)magnetic->push(magnetic->state, &tracker->attitude, tracker->parts.attitude, mag);
     }
     insole_phone_compass_t *compass = &tracker->compass;
     bool is_new =
@@ -295,8 +300,8 @@ static bool is_in_time(const insole_phone_tracker_t *t, uint64_t t_us)
     return !has_filter(&t->parts) || (!is_ahead && insole_phone_way_reaches(&t->walk.way, t_us));
 }
 
-insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
-                                          const insole_scan_t *scan)
+INSOLE_COLD insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
+                                                      const insole_scan_t *scan)
 {
     if (!tracker) {
         return INSOLE_ERR_NULL;
@@ -305,7 +310,7 @@ insole_status_t insole_phone_tracker_scan(insole_phone_tracker_t *tracker,
         return answer(tracker, INSOLE_ERR_TIME);
     }
     insole_trusted_area_t area;
-    const insole_phone_tracker_config_t *c = &tracker->config;
+    const insole_phone_tracker_own_t *c = &tracker->config;
     bool is_known = c->trust_sigmas > ZERO && has_filter(&tracker->parts) &&
                     insole_phone_place_area(&tracker->place, tracker->t_us, c->trust_sigmas,
                                             c->trust_least_m, &area);

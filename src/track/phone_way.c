@@ -13,7 +13,7 @@ static const insole_real_t SHORTEST = INSOLE_R(0.1); /* of a sum that has a dire
 
 static const insole_turn_t nowhere = {ZERO, ZERO};
 
-insole_status_t insole_phone_way_init(insole_phone_way_t *way)
+INSOLE_COLD insole_status_t insole_phone_way_init(insole_phone_way_t *way)
 {
     if (!way) {
         return INSOLE_ERR_NULL;
@@ -35,19 +35,22 @@ static uint64_t slot_of(uint64_t t_us)
     return insole_slot_of(t_us / 2u, INSOLE_PHONE_WAY_SLOT_US / 2u) + 1u; /* 0 means none */
 }
 
-static insole_turn_t *slot_at(insole_phone_way_t *way, uint64_t slot)
+/* `back` = 0 is the newest. */
+static uint32_t place_of(const insole_phone_way_t *way, uint32_t back)
 {
-    return &way->ahead[slot % INSOLE_PHONE_WAY_SLOTS];
+    return ((uint32_t)way->slot - back) % INSOLE_PHONE_WAY_SLOTS;
 }
 
-static void open_slot(insole_phone_way_t *way, uint64_t slot)
+/* The slots from the newest to that of the time, as many as there are. */
+static void open_slots(insole_phone_way_t *way, uint64_t t_us)
 {
-    uint64_t fresh = slot - way->slot;
-    uint64_t count = fresh < INSOLE_PHONE_WAY_SLOTS ? fresh : INSOLE_PHONE_WAY_SLOTS;
-    for (uint64_t i = 0u; i < count; i++) {
-        *slot_at(way, slot - i) = nowhere;
-    }
+    uint64_t slot = slot_of(t_us), fresh = slot - way->slot;
+    uint32_t count = fresh < INSOLE_PHONE_WAY_SLOTS ? (uint32_t)fresh : INSOLE_PHONE_WAY_SLOTS;
+    way->first_slot = has_slots(way) ? way->first_slot : slot;
     way->slot = slot;
+    for (uint32_t back = 0u; back < count; back++) {
+        way->ahead[place_of(way, back)] = nowhere;
+    }
 }
 
 insole_status_t insole_phone_way_face(insole_phone_way_t *way, uint64_t t_us, insole_turn_t ahead)
@@ -58,36 +61,36 @@ insole_status_t insole_phone_way_face(insole_phone_way_t *way, uint64_t t_us, in
     if (!(ahead.cos * ahead.cos + ahead.sin * ahead.sin <= LONGEST * LONGEST)) {
         return INSOLE_ERR_VALUE;
     }
-    uint64_t slot = slot_of(t_us);
-    way->first_slot = has_slots(way) ? way->first_slot : slot;
-    if (slot > way->slot) {
-        open_slot(way, slot);
+    if (t_us >= way->slot * INSOLE_PHONE_WAY_SLOT_US) {
+        open_slots(way, t_us);
     }
-    insole_turn_t *sum = slot_at(way, way->slot);
+    insole_turn_t *sum = &way->ahead[place_of(way, 0u)];
     sum->cos += ahead.cos;
     sum->sin += ahead.sin;
     return INSOLE_OK;
 }
 
-static uint64_t clamp(uint64_t slot, uint64_t least, uint64_t most)
+static uint32_t oldest_back(const insole_phone_way_t *way)
 {
-    return slot < least ? least : slot > most ? most : slot;
+    uint64_t before = way->slot - way->first_slot;
+    return before < INSOLE_PHONE_WAY_SLOTS ? (uint32_t)before : INSOLE_PHONE_WAY_SLOTS - 1u;
 }
 
-static uint64_t oldest_slot(const insole_phone_way_t *way)
+/* That of the time, or the next one to it. */
+static uint32_t back_of(const insole_phone_way_t *way, uint64_t t_us)
 {
-    uint64_t kept = way->slot - way->first_slot < INSOLE_PHONE_WAY_SLOTS
-                        ? way->slot - way->first_slot
-                        : INSOLE_PHONE_WAY_SLOTS - 1u;
-    return way->slot - kept;
+    uint64_t slot = slot_of(t_us), back = way->slot > slot ? way->slot - slot : 0u;
+    uint32_t oldest = oldest_back(way);
+    return back < oldest ? (uint32_t)back : oldest;
 }
 
-static insole_turn_t sum_of(const insole_phone_way_t *way, uint64_t from, uint64_t to)
+static insole_turn_t sum_of(const insole_phone_way_t *way, uint32_t from, uint32_t to)
 {
     insole_turn_t sum = nowhere;
-    for (uint64_t slot = from; slot <= to; slot++) {
-        sum.cos += way->ahead[slot % INSOLE_PHONE_WAY_SLOTS].cos;
-        sum.sin += way->ahead[slot % INSOLE_PHONE_WAY_SLOTS].sin;
+    for (uint32_t back = from + 1u; back-- > to;) {
+        const insole_turn_t *slot = &way->ahead[place_of(way, back)];
+        sum.cos += slot->cos;
+        sum.sin += slot->sin;
     }
     return sum;
 }
@@ -97,9 +100,9 @@ static bool has_direction(insole_turn_t sum)
     return insole_abs(sum.cos) + insole_abs(sum.sin) >= SHORTEST;
 }
 
-insole_status_t insole_phone_way_direction(const insole_phone_way_t *way,
-                                           const insole_footfall_t *footfall,
-                                           insole_real_t *direction_rad)
+INSOLE_COLD insole_status_t insole_phone_way_direction(const insole_phone_way_t *way,
+                                                       const insole_footfall_t *footfall,
+                                                       insole_real_t *direction_rad)
 {
     if (!way || !footfall || !direction_rad) {
         return INSOLE_ERR_NULL;
@@ -107,16 +110,15 @@ insole_status_t insole_phone_way_direction(const insole_phone_way_t *way,
     if (!has_slots(way)) {
         return INSOLE_ERR_STATE;
     }
-    uint64_t oldest = oldest_slot(way);
-    uint64_t to = clamp(slot_of(footfall->end_us), oldest, way->slot);
-    uint64_t from = clamp(slot_of(footfall->begin_us), oldest, to);
+    uint32_t to = back_of(way, footfall->end_us), from = back_of(way, footfall->begin_us);
+    from = from > to ? from : to;
     insole_turn_t sum = sum_of(way, from, to);
-    while (!has_direction(sum) && from > oldest) {
-        from--;
+    while (!has_direction(sum) && from < oldest_back(way)) {
+        from++;
         sum = sum_of(way, from, from);
     }
-    while (!has_direction(sum) && to < way->slot) {
-        to++;
+    while (!has_direction(sum) && to > 0u) {
+        to--;
         sum = sum_of(way, to, to);
     }
     *direction_rad = insole_atan2(sum.sin, sum.cos);
@@ -125,8 +127,9 @@ insole_status_t insole_phone_way_direction(const insole_phone_way_t *way,
 
 /* ---- steps ------------------------------------------------------------------------------ */
 
-insole_status_t insole_phone_way_go(insole_phone_way_t *way, const insole_footfall_t *footfall,
-                                    insole_spot_t displacement)
+INSOLE_COLD insole_status_t insole_phone_way_go(insole_phone_way_t *way,
+                                                const insole_footfall_t *footfall,
+                                                insole_spot_t displacement)
 {
     if (!way || !footfall) {
         return INSOLE_ERR_NULL;
@@ -150,12 +153,12 @@ static insole_real_t share_before(uint64_t begin_us, uint64_t end_us, uint64_t t
     return t_us >= end_us ? ONE : insole_seconds(begin_us, t_us) / insole_seconds(begin_us, end_us);
 }
 
-insole_real_t insole_phone_way_share(const insole_footfall_t *footfall, uint64_t t_us)
+INSOLE_COLD insole_real_t insole_phone_way_share(const insole_footfall_t *footfall, uint64_t t_us)
 {
     return share_before(footfall->begin_us, footfall->end_us, t_us);
 }
 
-insole_spot_t insole_phone_way_since(const insole_phone_way_t *way, uint64_t t_us)
+INSOLE_COLD insole_spot_t insole_phone_way_since(const insole_phone_way_t *way, uint64_t t_us)
 {
     insole_spot_t sum = {ZERO, ZERO};
     for (uint32_t i = way->ring.begin; i != way->ring.end; i++) {
@@ -166,7 +169,7 @@ insole_spot_t insole_phone_way_since(const insole_phone_way_t *way, uint64_t t_u
     return sum;
 }
 
-bool insole_phone_way_reaches(const insole_phone_way_t *way, uint64_t t_us)
+INSOLE_COLD bool insole_phone_way_reaches(const insole_phone_way_t *way, uint64_t t_us)
 {
     uint32_t oldest = insole_ring_slot(&way->ring, way->ring.begin);
     return !insole_ring_is_full(&way->ring) || way->steps[oldest].begin_us <= t_us;

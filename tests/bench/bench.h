@@ -41,7 +41,8 @@ typedef struct {
         cases, sizeof cases / sizeof cases[0]                                                      \
     }
 
-extern const bench_table_t bench_base, bench_foot, bench_fuse, bench_phone, bench_place;
+extern const bench_table_t bench_base, bench_foot, bench_fuse, bench_phone, bench_place,
+    bench_track;
 
 /** What the call under way found. */
 extern insole_real_t bench_result[BENCH_RESULTS];

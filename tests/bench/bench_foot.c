@@ -1,54 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * The foot path on a synthetic walk: two seconds of rest, then a stride a second at 200 Hz. */
+ * The foot path on a made-up walk. */
 #include "bench.h"
-
-#define STANCE_S     INSOLE_R(0.4)
-#define SWING_S      INSOLE_R(0.6)
-#define PITCH_RAD    INSOLE_R(0.9)
-#define SPEED_MPS    INSOLE_R(1.2)
-#define LIFT_M       INSOLE_R(0.06)
-#define GRAVITY_MPS2 INSOLE_R(9.81)
-
-enum { RATE_HZ = 200, REST = 2 * RATE_HZ, WALK = 10 * RATE_HZ };
-
-static insole_imu_t imu;
-
-/* The foot in the plane of its walk, at `phase` (0 to 1) of the swing. */
-static void make_swing(insole_real_t phase)
-{
-    insole_real_t angle = INSOLE_R(2.0) * INSOLE_PI * phase;
-    insole_real_t rate = INSOLE_R(2.0) * INSOLE_PI / SWING_S;
-    insole_real_t c = insole_cos(angle), s = insole_sin(angle);
-    insole_real_t pitch = INSOLE_R(0.5) * PITCH_RAD * (INSOLE_R(1.0) - c);
-    insole_real_t ahead = SPEED_MPS * rate * s;
-    insole_real_t up = GRAVITY_MPS2 + INSOLE_R(0.5) * LIFT_M * rate * rate * c;
-    insole_real_t cp = insole_cos(pitch), sp = insole_sin(pitch);
-    imu.accel_mps2 = insole_vec3(cp * ahead - sp * up, INSOLE_R(0.0), sp * ahead + cp * up);
-    imu.gyro_radps =
-        insole_vec3(INSOLE_R(0.0), INSOLE_R(0.5) * PITCH_RAD * rate * s, INSOLE_R(0.0));
-}
-
-/* Noise of a good consumer sensor, so that no detector sees exact zeros. */
-static void add_noise(void)
-{
-    insole_vec3_t a = bench_vec3_between(INSOLE_R(-0.03), INSOLE_R(0.03));
-    insole_vec3_t w = bench_vec3_between(INSOLE_R(-0.003), INSOLE_R(0.003));
-    imu.accel_mps2 = insole_vec3_add(imu.accel_mps2, a);
-    imu.gyro_radps = insole_vec3_add(imu.gyro_radps, w);
-}
-
-static void make_sample(uint32_t call)
-{
-    imu.t_us = (uint64_t)(call + 1u) * (1000000u / RATE_HZ);
-    imu.accel_mps2 = insole_vec3(INSOLE_R(0.0), INSOLE_R(0.0), GRAVITY_MPS2);
-    imu.gyro_radps = insole_vec3_zero();
-    uint32_t in_stride = call < REST ? 0u : (call - REST) % RATE_HZ;
-    insole_real_t since_s = (insole_real_t)in_stride / (insole_real_t)RATE_HZ;
-    if (since_s > STANCE_S) {
-        make_swing((since_s - STANCE_S) / SWING_S);
-    }
-    add_noise();
-}
+#include "bench_walk.h"
 
 static insole_screen_t screen;
 static insole_clean_t clean;
@@ -61,7 +14,7 @@ static void begin_screen(void)
 static void call_insole_screen_push(uint32_t call)
 {
     (void)call;
-    insole_screen_push(&screen, &imu, &clean);
+    insole_screen_push(&screen, &bench_imu, &clean);
     bench_take_vec3(0u, clean.imu.accel_mps2);
 }
 
@@ -75,7 +28,7 @@ static void begin_rest(void)
 static void call_insole_still_bias_push(uint32_t call)
 {
     (void)call;
-    insole_still_bias_push(&rest, &imu);
+    insole_still_bias_push(&rest, &bench_imu);
     bench_take_vec3(0u, rest.gyro_bias_radps);
 }
 
@@ -90,7 +43,7 @@ static void call_insole_zero_velocity_push_next(uint32_t call)
 {
     insole_labelled_t out;
     (void)call;
-    insole_zero_velocity_push(&stance, &imu, 0u);
+    insole_zero_velocity_push(&stance, &bench_imu, 0u);
     while (insole_zero_velocity_next(&stance, &out) == INSOLE_OK) {
         bench_result[0] = out.statistic;
         bench_result[1] = out.still ? INSOLE_R(1.0) : INSOLE_R(0.0);
@@ -104,7 +57,8 @@ static void align(insole_real_t sigma_accel_bias_mps2)
     insole_zupt_ekf_config_t config = insole_zupt_ekf_defaults;
     config.sigma_accel_bias_mps2 = sigma_accel_bias_mps2;
     insole_zupt_ekf_init(&ekf, &config);
-    insole_vec3_t up = insole_vec3(INSOLE_R(0.0), INSOLE_R(0.0), GRAVITY_MPS2);
+    insole_vec3_t up =
+        insole_vec3(INSOLE_R(0.0), INSOLE_R(0.0), insole_zupt_ekf_defaults.gravity_mps2);
     insole_zupt_ekf_align(&ekf, up, INSOLE_R(0.01), INSOLE_R(0.0), 1u);
 }
 
@@ -128,19 +82,19 @@ static void take_ekf(void)
 static void call_insole_zupt_ekf_predict_9(uint32_t call)
 {
     (void)call;
-    insole_zupt_ekf_predict(&ekf, &imu, 0u);
+    insole_zupt_ekf_predict(&ekf, &bench_imu, 0u);
 }
 
 static void call_insole_zupt_ekf_predict_12(uint32_t call)
 {
     (void)call;
-    insole_zupt_ekf_predict(&ekf, &imu, 0u);
+    insole_zupt_ekf_predict(&ekf, &bench_imu, 0u);
 }
 
 static void make_sample_and_predict(uint32_t call)
 {
-    make_sample(call);
-    insole_zupt_ekf_predict(&ekf, &imu, 0u);
+    bench_make_sample(call);
+    insole_zupt_ekf_predict(&ekf, &bench_imu, 0u);
 }
 
 static void call_insole_zupt_ekf_correct_9(uint32_t call)
@@ -180,7 +134,7 @@ static void take_fix(void)
 
 static void push_sample(void)
 {
-    insole_foot_tracker_imu(&shoe, &imu);
+    insole_foot_tracker_imu(&shoe, &bench_imu);
     while (insole_foot_tracker_next(&shoe, &fix) == INSOLE_OK) {
     }
 }
@@ -198,21 +152,23 @@ static void call_insole_foot_tracker_imu_next_9(uint32_t call)
 }
 
 static const bench_case_t cases[] = {
-    {"insole_screen_push", WALK, begin_screen, make_sample, call_insole_screen_push, NULL},
-    {"insole_still_bias_push", WALK, begin_rest, make_sample, call_insole_still_bias_push, NULL},
-    {"insole_zero_velocity_push_next", WALK, begin_stance, make_sample,
+    {"insole_screen_push", BENCH_WALK, begin_screen, bench_make_sample, call_insole_screen_push,
+     NULL},
+    {"insole_still_bias_push", BENCH_WALK, begin_rest, bench_make_sample,
+     call_insole_still_bias_push, NULL},
+    {"insole_zero_velocity_push_next", BENCH_WALK, begin_stance, bench_make_sample,
      call_insole_zero_velocity_push_next, NULL},
-    {"insole_zupt_ekf_predict_9", WALK, begin_nine, make_sample, call_insole_zupt_ekf_predict_9,
-     take_ekf},
-    {"insole_zupt_ekf_predict_12", WALK, begin_twelve, make_sample, call_insole_zupt_ekf_predict_12,
-     take_ekf},
-    {"insole_zupt_ekf_correct_9", REST, begin_nine, make_sample_and_predict,
+    {"insole_zupt_ekf_predict_9", BENCH_WALK, begin_nine, bench_make_sample,
+     call_insole_zupt_ekf_predict_9, take_ekf},
+    {"insole_zupt_ekf_predict_12", BENCH_WALK, begin_twelve, bench_make_sample,
+     call_insole_zupt_ekf_predict_12, take_ekf},
+    {"insole_zupt_ekf_correct_9", BENCH_REST, begin_nine, make_sample_and_predict,
      call_insole_zupt_ekf_correct_9, take_ekf},
-    {"insole_zupt_ekf_correct_12", REST, begin_twelve, make_sample_and_predict,
+    {"insole_zupt_ekf_correct_12", BENCH_REST, begin_twelve, make_sample_and_predict,
      call_insole_zupt_ekf_correct_12, take_ekf},
-    {"insole_foot_tracker_imu_next", WALK, begin_shoe, make_sample,
+    {"insole_foot_tracker_imu_next", BENCH_WALK, begin_shoe, bench_make_sample,
      call_insole_foot_tracker_imu_next, take_fix},
-    {"insole_foot_tracker_imu_next_9", WALK, begin_shoe_9, make_sample,
+    {"insole_foot_tracker_imu_next_9", BENCH_WALK, begin_shoe_9, bench_make_sample,
      call_insole_foot_tracker_imu_next_9, take_fix},
 };
 

@@ -84,8 +84,8 @@ static outcome_t run_case(const bench_case_t *c)
 
 int main(void)
 {
-    static const bench_table_t *const tables[] = {&bench_base, &bench_foot, &bench_fuse,
-                                                  &bench_phone, &bench_place};
+    static const bench_table_t *const tables[] = {&bench_base,  &bench_foot,  &bench_fuse,
+                                                  &bench_phone, &bench_place, &bench_track};
     if (!bench_counter_start()) {
         bench_write("the counter does not count instructions\n");
         return 1;

@@ -318,7 +318,7 @@ static void make_start(int32_t method)
 {
     insole_auto_start_config_t config = insole_auto_start_defaults;
     config.method = method;
-    insole_auto_start_init(&start, &config);
+    insole_auto_start_init(&start, &config, &insole_auto_start_circles);
     for (uint32_t i = 0u; i < 5u; i++) {
         make_news(i);
         insole_auto_start_step(&start, &pace);

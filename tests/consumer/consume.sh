@@ -12,7 +12,7 @@ here=$(dirname "$0")
 install_library() {
     [ "$kind" = shared ] && shared=ON || shared=OFF
     rm -rf "$work"
-    "$CMAKE" -S "$source" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=$shared \
+    "$CMAKE" -S "$source" -B "$work/build" -DCMAKE_BUILD_TYPE=Debug -DBUILD_SHARED_LIBS=$shared \
         -DINSOLE_BUILD_TESTS=OFF -DINSOLE_BUILD_TOOLS=ON -DCMAKE_INSTALL_PREFIX="$work/first"
     "$CMAKE" --build "$work/build" --parallel 2
     "$CMAKE" --install "$work/build"

@@ -2,8 +2,8 @@
 """Gate: what a whole path costs on a Cortex-M4F.  usage: paths.py ROOT BUILD [--update|--check README]
 
 Each program of paths/ is linked with the library alone, sections that nobody needs left out. Flash
-is code and tables, RAM all its variables, stack the worst of its main. Drivers and tables in flash
-(the plan, the map) do not count.
+is code and tables, RAM all its variables, stack the worst of its main; behind a pointer is only what
+is linked. Drivers and tables in flash (the plan, the map) do not count.
 """
 import sys
 import tempfile
@@ -43,6 +43,18 @@ def link(root, build, name, folder):
     return linked
 
 
+def symbols(linked):
+    """`f` and `file.c:f` of a program's functions"""
+    names, source = set(), ""
+    for line in arm.tool("objdump", "-t", linked).splitlines():
+        fields = line.split()
+        if "df" in fields:
+            source = fields[-1]
+        elif "F" in fields:
+            names |= {fields[-1], f"{source}:{fields[-1]}"}
+    return names
+
+
 def measure(root, build, name):
     """(flash, RAM, stack) in bytes"""
     with tempfile.TemporaryDirectory() as folder:
@@ -51,7 +63,8 @@ def measure(root, build, name):
         graph = stack.CallGraph(build / "src")
         for path in Path(folder).glob("*.ci"):
             graph.read(path.read_text())
-        return text + data, data + bss, stack.depths_of(graph, HERE).depth("main")
+        depths = stack.depths_of(graph, HERE, symbols(linked))
+        return text + data, data + bss, depths.depth("main")
 
 
 def table(costs):

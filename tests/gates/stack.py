@@ -48,8 +48,8 @@ def short_name(title):
 class Depths:
     """Worst stack of each function, found once."""
 
-    def __init__(self, graph, outside, indirect):
-        self.graph, self.outside, self.indirect = graph, outside, indirect
+    def __init__(self, graph, outside, indirect, linked=None):
+        self.graph, self.outside, self.indirect, self.linked = graph, outside, indirect, linked
         self.known, self.trail, self.problems = {}, [], []
 
     def targets(self, name):
@@ -63,10 +63,13 @@ class Depths:
                 yield from self.named(callee)
 
     def named(self, callee):
-        """A function, or all static ones of that name."""
+        """A function, or all static ones of that name; of a program's, those it has."""
         if callee in self.graph.frames:
-            return [callee]
-        return [name for name in self.graph.frames if short_name(name) == callee] or [callee]
+            titles = [callee]
+        else:
+            titles = [name for name in self.graph.frames if short_name(name) == callee] or [callee]
+        return [title for title in titles
+                if self.linked is None or title.rsplit("/", 1)[-1] in self.linked]
 
     def depth(self, name):
         if name in self.trail:
@@ -93,9 +96,10 @@ def indirect_calls(path):
     return {row["caller"]: row["callees"].split() for row in arm.table(path)}
 
 
-def depths_of(graph, here=HERE):
+def depths_of(graph, here=HERE, linked=None):
+    """`linked`: what a program holds, `f` and `file.c:f`; None: all that there is"""
     outside = {row["symbol"]: int(row["stack_bytes"]) for row in arm.table(here / "arm_symbols.csv")}
-    return Depths(graph, outside, indirect_calls(here / "indirect_calls.csv"))
+    return Depths(graph, outside, indirect_calls(here / "indirect_calls.csv"), linked)
 
 
 def check(build, here=HERE):

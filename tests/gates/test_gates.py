@@ -375,6 +375,27 @@ class CortexM(Scratch):
         self.assertEqual(self.stack_problems(code, 120, "f,small\n"), [])
         self.assert_refused(self.stack_problems(code, 97, "f,small\n"), "stack of f")
 
+    def test_of_a_program_only_what_it_holds_stands_behind_a_pointer(self):
+        code = "".join(f"static int deep(int a) {{ volatile char b[{size}]; b[0] = 1; return a; }}\n"
+                       f"int (*volatile {name})(int) = deep;\n@" for name, size in
+                       (("here", 40), ("there", 400))).split("@")
+        graph = stack.CallGraph(self.root)
+        for name, text in zip(("here", "there"), code):
+            source = self.write(f"{name}.c", "extern int (*volatile here)(int);\n"
+                                "extern int (*volatile there)(int);\n" + text)
+            arm.tool("gcc", *ARM_FLAGS, "-c", source, "-o",
+                     self.root / f"{name}.o")
+            graph.read((self.root / f"{name}.ci").read_text())
+        graph.frames["f"], graph.calls["f"] = 0, {stack.INDIRECT}
+        program = self.root / "program.elf"
+        arm.tool("gcc", *ARM_FLAGS, "-nostdlib", "-Wl,-e0", self.root / "here.o", "-o", program)
+        held = paths.symbols(program)
+        self.assertIn("here.c:deep", held)
+        all_of, of_program = (stack.Depths(graph, {}, {"f": ["deep"]}, names).depth("f")
+                              for names in (None, held))
+        self.assertGreaterEqual(all_of, 400)
+        self.assertLess(of_program, 100)
+
     def test_unknown_functions_are_found(self):
         code = "int other(int);\nint f(int a);\nint f(int a) { return 1 + other(a); }\n"
         self.assert_refused(self.stack_problems(code), "nobody knows its stack")

@@ -27,6 +27,7 @@ check_format() {
 check_cppcheck() {
     need cppcheck
     cppcheck --quiet --std=c99 --enable=warning,performance,portability --inline-suppr \
+        -U INSOLE_DOUBLE -U __GNUC__ \
         --error-exitcode=1 -I include -I tools "$@"
 }
 

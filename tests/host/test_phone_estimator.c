@@ -43,7 +43,7 @@ static replay_request_t request_of(method_t method)
     request.particles = 200u;
     request.seed = 1u;
     settings_init(&request.settings);
-    request.settings.phone.tracker.walk.faces = 0; /* a hand by formula is as stiff as a head */
+    request.settings.phone.gait.faces = 0; /* a hand by formula is as stiff as a head */
     request.settings.phone.tracker.walk.step_length.model = INSOLE_STEP_LENGTH_CONSTANT;
     request.settings.phone.tracker.walk.step_length.constant_m = INSOLE_R(0.7);
     return request;

@@ -35,6 +35,7 @@ typedef struct {
     insole_attitude_t attitude;
     insole_magnetic_t magnetic;
     insole_walk_heading_t headings[METHODS], of_phone;
+    insole_phone_gait_t gait;
     insole_phone_walk_t phone;
 } rival_t;
 
@@ -103,8 +104,9 @@ static void begin(void)
     const int32_t methods[METHODS] = {INSOLE_WALK_HEADING_RMPCA, INSOLE_WALK_HEADING_RMPCA,
                                       INSOLE_WALK_HEADING_UDIRECT};
     insole_phone_walk_config_t walk = insole_phone_walk_defaults;
-    walk.faces = 1;
-    walk.gait = 0;
+    insole_phone_gait_config_t gait = insole_phone_gait_defaults;
+    gait.faces = 1;
+    gait.gait = 0;
     for (int a = 0; a < ATTITUDES; a++) {
         rival_t *r = &rivals[a];
         r->method = a == EKF ? insole_attitude_ekf : a == UKF ? insole_attitude_ukf : NULL;
@@ -122,8 +124,10 @@ static void begin(void)
             done = done && insole_walk_heading_init(&r->headings[m], &c) == INSOLE_OK;
         }
         done = done && insole_walk_heading_init(&r->of_phone, &heading_config) == INSOLE_OK;
-        insole_phone_gait_t gait = {&r->of_phone, NULL, NULL};
-        done = done && insole_phone_walk_init(&r->phone, &walk, &gait) == INSOLE_OK;
+        insole_phone_guide_t guide = {&insole_phone_gait_calls, &r->gait};
+        done =
+            done && insole_phone_gait_init(&r->gait, &gait, &r->of_phone, NULL, NULL) == INSOLE_OK;
+        done = done && insole_phone_walk_init(&r->phone, &walk, &guide) == INSOLE_OK;
         if (!done) {
             stop("a setting is out of its range");
         }

@@ -12,9 +12,7 @@ Errors are those at the points of truth after the start, pooled over walks and s
 interpolated at their times, a point without one counts 30 m. Whatever is random (the half of the
 access points, where a wrong start lies) follows from walk and seed.
 """
-import argparse
 import concurrent.futures
-import csv
 import json
 import math
 import pathlib
@@ -22,8 +20,9 @@ import statistics
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import kept  # noqa: E402
 import program as support  # noqa: E402
-from tracks import errors_of, percentile, put_in, read_lines, read_track, show_progress, Track  # noqa: E402,E501
+from tracks import errors_of, percentile, read_lines, read_track, show_progress, Track  # noqa: E402,E501
 
 BEGIN, END = "<!-- buildings:begin -->", "<!-- buildings:end -->"
 ASTRAY_M = 5.0
@@ -357,47 +356,29 @@ def check_prefix(program, data, checks):
 
 
 def write_expectations(results, file):
-    """Equal programs give equal bits: what is allowed is for changes that are meant to be small."""
-    file.write("# SPDX-License-Identifier: MIT\n# Made by buildings.py --expect.\n")
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["configuration", "mean_m", "tolerance_m"])
-    for key, result in results.items():
-        writer.writerow([key, f"{result.mean:.4f}", f"{max(0.01, 0.1 * result.mean):.4f}"])
+    kept.write_means(file, "buildings.py", "configuration",
+                     [(key, result.mean, max(0.01, 0.1 * result.mean))
+                      for key, result in results.items()])
 
 
 def check_expectations(program, data, path, jobs):
-    checks = support.Checks()
-    with open(path, encoding="ascii") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    checks, rows = support.Checks(), kept.read_rows(path)
     results = run_all(program, data, [row["configuration"] for row in rows], 1, jobs)
-    for row in rows:
-        mean, tolerance = float(row["mean_m"]), float(row["tolerance_m"])
-        result = results[row["configuration"]]
-        checks.within(f"{row['configuration']}: mean error", result.mean, mean - tolerance,
-                      mean + tolerance, "m")
+    kept.check_means(checks, "configuration", rows, lambda name: results[name].mean)
     check_prefix(program, data, checks)
     return checks.exit_code()
 
 
 def parse():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--insole", required=True)
-    parser.add_argument("--data", required=True, type=pathlib.Path)
-    parser.add_argument("--seeds", type=int, default=20)
-    parser.add_argument("--only", help="configurations: " + ",".join(CONFIGURATIONS))
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--update", type=pathlib.Path)
-    parser.add_argument("--expected", type=pathlib.Path)
-    parser.add_argument("--expect", action="store_true")
+    parser = kept.recordings_parser(__doc__, seeds=20, rows=CONFIGURATIONS)
     parser.add_argument("--json", action="store_true", help="the figures as JSON")
     return parser.parse_args()
 
 
 def main():
     given = parse()
-    if not (given.data / "buildings").is_dir():
-        print(f"SKIPPED: there are no recordings at {given.data / 'buildings'}")
-        return support.SKIPPED
+    if kept.lacks(given.data / "buildings"):
+        return kept.SKIPPED
     with support.Program(given.insole) as program:
         if given.expected:
             return check_expectations(program, given.data, given.expected, given.jobs)
@@ -412,8 +393,7 @@ def main():
         return 0
     result = table(results)
     if given.update:
-        text = given.update.read_text(encoding="utf-8")
-        given.update.write_text(put_in(text, BEGIN, END, result), encoding="utf-8")
+        kept.update(given.update, BEGIN, END, result)
     print(result)
     return 0
 

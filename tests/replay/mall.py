@@ -13,16 +13,15 @@ made of. Each of these is replayed, too, with a map of the others: a setting tha
 alone would show. Errors are those at all waypoints, pooled over walks and seeds; where the start is
 not told, at those from one second after the first scan on. A waypoint without a row counts 30 m.
 """
-import argparse
 import concurrent.futures
-import csv
 import pathlib
 import statistics
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import kept  # noqa: E402
 import program as support  # noqa: E402
-from tracks import errors_of, percentile, put_in, read_lines, read_track  # noqa: E402
+from tracks import errors_of, percentile, read_lines, read_track  # noqa: E402
 from tracks import show_progress, Track  # noqa: E402
 
 BEGIN, END = "<!-- mall:begin -->", "<!-- mall:end -->"
@@ -203,46 +202,23 @@ def check_prefix(program, walks, checks, wanted):
 
 
 def write_expectations(results, rows, file):
-    """Equal programs give equal bits: what is allowed is for changes that are meant to be small."""
-    file.write("# SPDX-License-Identifier: MIT\n# Made by mall.py --expect.\n")
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["row", "mean_m", "tolerance_m"])
-    for row in rows:
-        mean = results["test", row].mean
-        writer.writerow([row, f"{mean:.4f}", f"{0.05 * mean:.4f}"])
+    means = [(row, results["test", row].mean) for row in rows]
+    kept.write_means(file, "mall.py", "row", [(row, mean, 0.05 * mean) for row, mean in means])
 
 
 def check_expectations(program, walks, path, jobs):
-    checks = support.Checks()
-    with open(path, encoding="ascii") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    results = run_all(program, test_tasks(program, walks, [row["row"] for row in rows], 1), jobs)
-    for row in rows:
-        mean, tolerance = float(row["mean_m"]), float(row["tolerance_m"])
-        checks.within(f"{row['row']}: mean error", results["test", row["row"]].mean,
-                      mean - tolerance, mean + tolerance, "m")
-    check_prefix(program, walks, checks, [row["row"] for row in rows])
+    checks, rows = support.Checks(), kept.read_rows(path)
+    names = [row["row"] for row in rows]
+    results = run_all(program, test_tasks(program, walks, names, 1), jobs)
+    kept.check_means(checks, "row", rows, lambda name: results["test", name].mean)
+    check_prefix(program, walks, checks, names)
     return checks.exit_code()
 
 
-def parse():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--insole", required=True)
-    parser.add_argument("--data", required=True, type=pathlib.Path)
-    parser.add_argument("--seeds", type=int, default=20)
-    parser.add_argument("--only", help="rows: " + ",".join(ROWS))
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--update", type=pathlib.Path)
-    parser.add_argument("--expected", type=pathlib.Path)
-    parser.add_argument("--expect", action="store_true")
-    return parser.parse_args()
-
-
 def main():
-    given = parse()
-    if not (given.data / "phone" / "mall_F1").is_dir():
-        print(f"SKIPPED: there are no recordings at {given.data / 'phone' / 'mall_F1'}")
-        return support.SKIPPED
+    given = kept.recordings_parser(__doc__, seeds=20, rows=ROWS).parse_args()
+    if kept.lacks(given.data / "phone" / "mall_F1"):
+        return kept.SKIPPED
     walks = walks_of(given.data)
     rows = given.only.split(",") if given.only else list(ROWS)
     with support.Program(given.insole) as program:
@@ -255,8 +231,7 @@ def main():
         results = run_all(program, tasks + survey_tasks(program, walks, rows), given.jobs)
     result = table(results, rows)
     if given.update:
-        text = given.update.read_text(encoding="utf-8")
-        given.update.write_text(put_in(text, BEGIN, END, result), encoding="utf-8")
+        kept.update(given.update, BEGIN, END, result)
     print(result)
     return 0
 

@@ -20,8 +20,10 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import kept  # noqa: E402
+
 BEGIN, END = "<!-- results:begin -->", "<!-- results:end -->"
-SKIPPED = 77
 DETECTORS = ["two-step", "shoe", "mv", "mag", "are"]
 
 
@@ -113,12 +115,6 @@ def table(bench):
     return "\n".join(lines)
 
 
-def put_in(text, content):
-    head, rest = text.split(BEGIN, 1)
-    tail = rest.split(END, 1)[1]
-    return f"{head}{BEGIN}\n{content}\n{END}{tail}"
-
-
 def expectation(bench, name):
     """What is held on to for one recording: key, value, tolerance."""
     score = bench.score(name)
@@ -140,9 +136,7 @@ def write_expectations(bench, file):
 
 
 def check_file(bench, name, expected):
-    with open(expected, encoding="ascii") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    wanted = [row for row in rows if row["recording"] == name]
+    wanted = [row for row in kept.read_rows(expected) if row["recording"] == name]
     if not wanted:
         print(f"{name}: no expectation in {expected}")
         return 1
@@ -169,7 +163,7 @@ def main():
     given = parser.parse_args()
     if not pathlib.Path(given.data).is_dir():
         print(f"skipped: there are no recordings at {given.data}")
-        return SKIPPED
+        return kept.SKIPPED
     bench = Bench(given.insole, given.data)
     if given.file:
         return check_file(bench, given.file, given.expected)
@@ -180,7 +174,7 @@ def main():
     if given.update or given.check:
         path = pathlib.Path(given.update or given.check)
         text = path.read_text(encoding="utf-8")
-        fresh = put_in(text, result)
+        fresh = kept.put_in(text, BEGIN, END, result)
         if given.check and fresh != text:
             print(f"{path}: the table of results is not what the program gives now:\n{result}")
             return 1

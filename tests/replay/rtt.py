@@ -8,11 +8,11 @@
 
 The logs have no IMU. Errors are those at all points of truth of a scene's runs.
 """
-import argparse
 import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import kept  # noqa: E402
 import program as support  # noqa: E402
 
 BEGIN, END = "<!-- rtt:begin -->", "<!-- rtt:end -->"
@@ -71,27 +71,18 @@ def check(results):
     return checks.exit_code()
 
 
-def put_in(text, content):
-    head, rest = text.split(BEGIN, 1)
-    return f"{head}{BEGIN}\n{content}\n{END}{rest.split(END, 1)[1]}"
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--insole", required=True)
-    parser.add_argument("--data", required=True, type=pathlib.Path)
+    parser = kept.recordings_parser(__doc__)
     parser.add_argument("--update", type=pathlib.Path)
     parser.add_argument("--check", action="store_true")
     given = parser.parse_args()
-    if not given.data.is_dir():
-        print(f"SKIPPED: there are no recordings at {given.data}")
-        return support.SKIPPED
+    if kept.lacks(given.data):
+        return kept.SKIPPED
     with support.Program(given.insole) as program:
         results = measure(program, given.data)
     print(table(results))
     if given.update:
-        text = given.update.read_text(encoding="utf-8")
-        given.update.write_text(put_in(text, table(results)), encoding="utf-8")
+        kept.update(given.update, BEGIN, END, table(results))
     return check(results) if given.check else 0
 
 

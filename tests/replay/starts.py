@@ -11,7 +11,6 @@ and `ekf`: the trackers that start by it. Walks and maps are those of mall.py. J
 after each scan: the place by the truth between two waypoints, the direction by that of the steps
 alone, turned so that over the whole walk it fits the surveyed legs on the mean.
 """
-import argparse
 import concurrent.futures
 import csv
 import math
@@ -20,6 +19,7 @@ import statistics
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import kept  # noqa: E402
 import program as support  # noqa: E402
 from mall import make_map, walks_of  # noqa: E402
 from tracks import percentile, read_lines, show_progress, Track  # noqa: E402
@@ -187,12 +187,8 @@ def check(judged):
 
 
 def parse():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--insole", required=True)
-    parser.add_argument("--data", required=True, type=pathlib.Path)
-    parser.add_argument("--only", help="rows: " + ",".join(ROWS))
+    parser = kept.recordings_parser(__doc__, rows=ROWS)
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
-    parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--test-only", action="store_true")
     parser.add_argument("--check", action="store_true")
     return parser.parse_args()
@@ -200,9 +196,8 @@ def parse():
 
 def main():
     given = parse()
-    if not (given.data / "phone" / "mall_F1").is_dir():
-        print(f"SKIPPED: there are no recordings at {given.data / 'phone' / 'mall_F1'}")
-        return support.SKIPPED
+    if kept.lacks(given.data / "phone" / "mall_F1"):
+        return kept.SKIPPED
     walks = walks_of(given.data)
     rows = given.only.split(",") if given.only else list(ROWS)
     if given.check:

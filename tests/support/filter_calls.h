@@ -9,6 +9,8 @@
 #include <string.h>
 
 #include "insole/fuse/step_filter.h"
+#include "insole/fuse/step_fusion.h"
+#include "near.h"
 
 /** A start five metres north-east of the origin, turned by a quarter. */
 static inline insole_step_filter_begin_t filter_begin(void)
@@ -45,6 +47,23 @@ static inline void check_filter_calls(const insole_step_filter_calls_t *calls, v
     begin.spot.x_m = INSOLE_R(1.0e9);
     ck_assert_int_eq(calls->start(state, &begin), INSOLE_ERR_VALUE);
     ck_assert_int_eq(calls->answer(state, &answer), INSOLE_ERR_STATE);
+}
+
+/** A step through the table goes the way that its method says. */
+static inline void check_filter_steps_by(const insole_step_filter_calls_t *calls,
+                                         const insole_pace_t *pace, const insole_step_way_t *way)
+{
+    const double eps = 4.0 * (double)INSOLE_REAL_EPSILON;
+    insole_step_fusion_t fusion;
+    insole_step_filter_begin_t begin = {.cov_m2 = {1, 0, 1}};
+    ck_assert_int_eq(insole_step_fusion_init(&fusion, &insole_step_fusion_defaults), INSOLE_OK);
+    ck_assert_int_eq(calls->start(&fusion, &begin), INSOLE_OK);
+    ck_assert_int_eq(calls->step(&fusion, 1u, pace), INSOLE_OK);
+    ASSERT_NEAR(fusion.spot.x_m, way->mean.x_m, eps, "m");
+    ASSERT_NEAR(fusion.spot.y_m, way->mean.y_m, eps, "m");
+    ASSERT_NEAR(fusion.P.xx, 1.0 + (double)way->Q.xx, eps, "m^2");
+    ASSERT_NEAR(fusion.P.xy, (double)way->Q.xy, eps, "m^2");
+    ASSERT_NEAR(fusion.P.yy, 1.0 + (double)way->Q.yy, eps, "m^2");
 }
 
 #endif

@@ -141,6 +141,7 @@ static inline void hear_on_the_way(double every_s, double sigma_db)
 
 /** A tracker and all that it points at. */
 typedef struct {
+    insole_magnetic_t magnetic;
     insole_phone_tracker_t phone;
     insole_step_fusion_t fusion;
     insole_ml_shift_t shift;
@@ -149,6 +150,7 @@ typedef struct {
 
 typedef struct {
     insole_phone_tracker_config_t config;
+    insole_magnetic_config_t magnetic;
     insole_attitude_method_t *attitude;
     const insole_step_filter_calls_t *filter; /**< NULL: radio alone */
     bool hears, sees;                         /**< scans, and the compass, are told */
@@ -176,6 +178,7 @@ static inline insole_start_t start_of(const hand_t *hand, bool has_heading)
 static inline rig_case_t usual_case(const hand_t *hand)
 {
     rig_case_t c = {.config = insole_phone_tracker_defaults,
+                    .magnetic = insole_magnetic_defaults,
                     .attitude = insole_attitude_ekf,
                     .filter = &insole_step_ekf_calls,
                     .has_start = true,
@@ -188,7 +191,8 @@ static inline rig_case_t usual_case(const hand_t *hand)
 
 static inline insole_phone_parts_t parts_of(rig_t *r, const rig_case_t *c)
 {
-    insole_phone_parts_t parts = {.attitude = c->attitude};
+    insole_phone_parts_t parts = {.attitude = c->attitude,
+                                  .magnetic = {insole_magnetic_push, &r->magnetic}};
     parts.filter.calls = c->filter;
     parts.filter.state = c->filter == &insole_ml_shift_calls ? (void *)&r->shift : &r->fusion;
     if (c->hears) {
@@ -213,6 +217,7 @@ static inline void set_up(rig_t *r, const rig_case_t *c)
     insole_phone_parts_t parts = parts_of(r, c);
     memset(r, 0, sizeof *r);
     fix_count = 0u;
+    ck_assert_int_eq(insole_magnetic_init(&r->magnetic, &c->magnetic), INSOLE_OK);
     ck_assert_int_eq(insole_step_fusion_init(&r->fusion, &insole_step_fusion_defaults), INSOLE_OK);
     ck_assert_int_eq(insole_ml_shift_init(&r->shift, &insole_ml_shift_defaults), INSOLE_OK);
     ck_assert_int_eq(insole_kde_fix_init(&r->kde, &insole_kde_fix_defaults), INSOLE_OK);

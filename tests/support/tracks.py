@@ -67,9 +67,3 @@ def show_progress(done, count, what):
     if sys.stderr.isatty():
         print(f"\r{done} of {count} replays, {what}\033[K", end="" if done < count else "\n",
               file=sys.stderr, flush=True)
-
-
-def put_in(text, begin, end, content):
-    """The text with what stands between two marks replaced."""
-    head, rest = text.split(begin, 1)
-    return f"{head}{begin}\n{content}\n{end}{rest.split(end, 1)[1]}"

@@ -3,8 +3,8 @@
 
 #include "near.h"
 #include "phone.h"
-#include "refusal.h"
 #include "sample.h"
+#include "sighting.h"
 #include "suite.h"
 
 #define EPS ((double)INSOLE_REAL_EPSILON)
@@ -228,12 +228,6 @@ static double apart_P(const four_t *f, insole_sym3_t s)
     return off / most;
 }
 
-static insole_sym3_t some_P(insole_rng_t *rng, insole_real_t size)
-{
-    insole_mat3_t M = sample_mat3(rng, size);
-    return insole_sym3_add_diagonal(insole_mat3_mul_t_sym(M, M), INSOLE_R(0.01) * size * size);
-}
-
 static insole_vec3_t noisy(insole_rng_t *rng, insole_vec3_t v, insole_real_t sigma)
 {
     return insole_vec3_add(v, sample_vec3(rng, sigma));
@@ -247,7 +241,7 @@ START_TEST(a_correction_is_that_of_the_four_state_filter)
     worst_t attitude = {0.0, 0.0}, covariance = {0.0, 0.0};
     for (int i = 0; i < 1000; i++) {
         insole_quat_t q = sample_quat(&rng);
-        insole_sym3_t P = some_P(&rng, INSOLE_R(0.5));
+        insole_sym3_t P = sighting_cov(&rng, INSOLE_R(0.5), INSOLE_R(0.01));
         insole_vec3_t known = sample_vec3(&rng, 50);
         if (i % 2 == 0) {
             known = insole_vec3(0, 0, INSOLE_R(9.81));
@@ -276,7 +270,7 @@ START_TEST(projection_on_the_sphere_is_the_same_for_small_corrections)
     worst_t covariance = {0.0, 0.0};
     for (int i = 0; i < 300; i++) {
         insole_quat_t q = sample_quat(&rng);
-        insole_sym3_t P = some_P(&rng, INSOLE_R(0.1));
+        insole_sym3_t P = sighting_cov(&rng, INSOLE_R(0.1), INSOLE_R(0.01));
         insole_vec3_t known = insole_vec3(0, 0, INSOLE_R(9.81));
         insole_sighting_t s = {known, noisy(&rng, known, INSOLE_R(0.02)), INSOLE_R(1.0)};
         four_t f = four_of(q, P);
@@ -386,14 +380,6 @@ START_TEST(gravity_leaves_the_heading_alone)
 }
 END_TEST
 
-static double least_pivot(insole_sym3_t s)
-{
-    double xx = (double)s.xx, xy = (double)s.xy, xz = (double)s.xz;
-    double yy = (double)s.yy - xy * xy / xx, yz = (double)s.yz - xy * xz / xx;
-    double zz = (double)s.zz - xz * xz / xx - yz * yz / yy;
-    return fmin(xx, fmin(yy / (double)s.yy, zz / (double)s.zz));
-}
-
 /* Very sharp sightings of very uncertain attitudes, the worst that the settings allow. */
 START_TEST(the_covariance_stays_positive)
 {
@@ -403,16 +389,9 @@ START_TEST(the_covariance_stays_positive)
     for (int i = 0; i < 20000; i++) {
         insole_sym3_t P = insole_sym3_diagonal(INSOLE_R(3.2), INSOLE_R(3.2), INSOLE_R(3.2));
         if (i % 2 == 0) {
-            P = some_P(&rng, sample_between(&rng, INSOLE_R(0.001), 1));
+            P = sighting_cov(&rng, sample_between(&rng, INSOLE_R(0.001), 1), INSOLE_R(0.01));
         }
-        for (int k = 0; k < 4; k++) {
-            insole_vec3_t known =
-                k % 2 == 0 ? insole_vec3(0, 0, INSOLE_R(9.81)) : sample_vec3(&rng, 50);
-            insole_sighting_t s = {known, noisy(&rng, known, 1), INSOLE_R(0.01)};
-            insole_correction_t made;
-            ck_assert_msg(insole_attitude_ekf(&P, &s, &made) == INSOLE_OK, "%d", i);
-            worst_require(&positive, least_pivot(P) > 0.0, i);
-        }
+        worst_require(&positive, sighting_keeps_positive(insole_attitude_ekf, &rng, P), i);
     }
     ASSERT_ALL_HELD(positive);
 }
@@ -420,30 +399,7 @@ END_TEST
 
 START_TEST(what_it_can_not_do_it_refuses)
 {
-    insole_sym3_t P = insole_sym3_diagonal(1, 1, 1);
-    insole_vec3_t up = insole_vec3(0, 0, INSOLE_R(9.81));
-    insole_sighting_t s = {up, up, INSOLE_R(1.0)};
-    insole_correction_t made = {insole_quat_identity(), 7};
-    struct {
-        insole_sym3_t P;
-        insole_correction_t made;
-    } all = {P, made};
-    ASSERT_UNCHANGED(all, insole_attitude_ekf(NULL, &s, &all.made), INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(all, insole_attitude_ekf(&all.P, NULL, &all.made), INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(all, insole_attitude_ekf(&all.P, &s, NULL), INSOLE_ERR_NULL);
-    s.variance = INSOLE_R(-1000.0);
-    ASSERT_UNCHANGED(all, insole_attitude_ekf(&all.P, &s, &all.made), INSOLE_ERR_STATE);
-    s.variance = (insole_real_t)NAN;
-    ASSERT_UNCHANGED(all, insole_attitude_ekf(&all.P, &s, &all.made), INSOLE_ERR_STATE);
-    s.variance = INSOLE_R(1.0);
-    s.seen.x = (insole_real_t)NAN;
-    ASSERT_UNCHANGED(all, insole_attitude_ekf(&all.P, &s, &all.made), INSOLE_ERR_STATE);
-    s.seen = up;
-    s.known.z = (insole_real_t)INFINITY;
-    ASSERT_UNCHANGED(all, insole_attitude_ekf(&all.P, &s, &all.made), INSOLE_ERR_STATE);
-    s.known = up;
-    all.P.yy = (insole_real_t)NAN;
-    ASSERT_UNCHANGED(all, insole_attitude_ekf(&all.P, &s, &all.made), INSOLE_ERR_STATE);
+    check_sighting_refusals(insole_attitude_ekf);
 }
 END_TEST
 

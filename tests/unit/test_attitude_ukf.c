@@ -4,8 +4,8 @@
 #include "insole/move/attitude_ekf.h"
 #include "near.h"
 #include "phone.h"
-#include "refusal.h"
 #include "sample.h"
+#include "sighting.h"
 #include "suite.h"
 
 #define PI  3.14159265358979323846
@@ -13,12 +13,6 @@
 #define EPS ((double)INSOLE_REAL_EPSILON)
 
 static const d3_t STILL = {0.0, 0.0, 0.0};
-
-static insole_sym3_t some_P(insole_rng_t *rng, insole_real_t size)
-{
-    insole_mat3_t M = sample_mat3(rng, size);
-    return insole_sym3_add_diagonal(insole_mat3_mul_t_sym(M, M), INSOLE_R(0.05) * size * size);
-}
 
 static d33_t inverse3(d33_t A)
 {
@@ -83,7 +77,8 @@ START_TEST(a_correction_is_that_of_seven_points)
     insole_rng_seed(&rng, 1u);
     worst_t turn = {0.0, 0.0}, covariance = {0.0, 0.0}, nis = {0.0, 0.0};
     for (int i = 0; i < 2000; i++) {
-        insole_sym3_t P = some_P(&rng, sample_between(&rng, INSOLE_R(0.05), INSOLE_R(0.35)));
+        insole_sym3_t P = sighting_cov(&rng, sample_between(&rng, INSOLE_R(0.05), INSOLE_R(0.35)),
+                                       INSOLE_R(0.05));
         insole_vec3_t known =
             i % 2 == 0 ? insole_vec3(0, 0, INSOLE_R(9.81)) : sample_vec3(&rng, 50);
         insole_sighting_t s = {known, insole_vec3_add(known, sample_vec3(&rng, 5)), 4};
@@ -111,7 +106,7 @@ START_TEST(small_uncertainty_gives_what_the_ekf_gives)
     insole_rng_seed(&rng, 2u);
     worst_t turn = {0.0, 0.0}, covariance = {0.0, 0.0};
     for (int i = 0; i < 500; i++) {
-        insole_sym3_t P = some_P(&rng, INSOLE_R(0.003)), Q = P;
+        insole_sym3_t P = sighting_cov(&rng, INSOLE_R(0.003), INSOLE_R(0.05)), Q = P;
         insole_vec3_t known = sample_vec3(&rng, 10);
         insole_sighting_t s = {known, insole_vec3_add(known, sample_vec3(&rng, INSOLE_R(0.03))),
                                INSOLE_R(0.001)};
@@ -266,30 +261,15 @@ START_TEST(two_directions_hold_the_heading)
 }
 END_TEST
 
-static double least_pivot(insole_sym3_t s)
-{
-    double xx = (double)s.xx, xy = (double)s.xy, xz = (double)s.xz;
-    double yy = (double)s.yy - xy * xy / xx, yz = (double)s.yz - xy * xz / xx;
-    double zz = (double)s.zz - xz * xz / xx - yz * yz / yy;
-    return fmin(xx, fmin(yy / (double)s.yy, zz / (double)s.zz));
-}
-
 START_TEST(the_covariance_stays_positive)
 {
     insole_rng_t rng;
     insole_rng_seed(&rng, 6u);
     worst_t positive = {0.0, 0.0};
     for (int i = 0; i < 20000; i++) {
-        insole_sym3_t P = some_P(&rng, sample_between(&rng, INSOLE_R(0.001), 1));
-        for (int k = 0; k < 4; k++) {
-            insole_vec3_t known =
-                k % 2 == 0 ? insole_vec3(0, 0, INSOLE_R(9.81)) : sample_vec3(&rng, 50);
-            insole_sighting_t s = {known, insole_vec3_add(known, sample_vec3(&rng, 1)),
-                                   INSOLE_R(0.01)};
-            insole_correction_t made;
-            ck_assert_msg(insole_attitude_ukf(&P, &s, &made) == INSOLE_OK, "%d", i);
-            worst_require(&positive, least_pivot(P) > 0.0, i);
-        }
+        insole_sym3_t P =
+            sighting_cov(&rng, sample_between(&rng, INSOLE_R(0.001), 1), INSOLE_R(0.05));
+        worst_require(&positive, sighting_keeps_positive(insole_attitude_ukf, &rng, P), i);
     }
     ASSERT_ALL_HELD(positive);
 }
@@ -314,28 +294,7 @@ END_TEST
 
 START_TEST(what_it_can_not_do_it_refuses)
 {
-    insole_vec3_t up = insole_vec3(0, 0, INSOLE_R(9.81));
-    insole_sighting_t s = {up, up, INSOLE_R(1.0)};
-    struct {
-        insole_sym3_t P;
-        insole_correction_t made;
-    } all = {insole_sym3_diagonal(1, 1, 1), {insole_quat_identity(), 7}};
-    ASSERT_UNCHANGED(all, insole_attitude_ukf(NULL, &s, &all.made), INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(all, insole_attitude_ukf(&all.P, NULL, &all.made), INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(all, insole_attitude_ukf(&all.P, &s, NULL), INSOLE_ERR_NULL);
-    s.variance = INSOLE_R(-1000.0);
-    ASSERT_UNCHANGED(all, insole_attitude_ukf(&all.P, &s, &all.made), INSOLE_ERR_STATE);
-    s.variance = (insole_real_t)NAN;
-    ASSERT_UNCHANGED(all, insole_attitude_ukf(&all.P, &s, &all.made), INSOLE_ERR_STATE);
-    s.variance = INSOLE_R(1.0);
-    s.seen.x = (insole_real_t)NAN;
-    ASSERT_UNCHANGED(all, insole_attitude_ukf(&all.P, &s, &all.made), INSOLE_ERR_STATE);
-    s.seen = up;
-    s.known.z = (insole_real_t)INFINITY;
-    ASSERT_UNCHANGED(all, insole_attitude_ukf(&all.P, &s, &all.made), INSOLE_ERR_STATE);
-    s.known = up;
-    all.P.yy = (insole_real_t)NAN;
-    ASSERT_UNCHANGED(all, insole_attitude_ukf(&all.P, &s, &all.made), INSOLE_ERR_STATE);
+    check_sighting_refusals(insole_attitude_ukf);
 }
 END_TEST
 

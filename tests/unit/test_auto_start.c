@@ -68,7 +68,7 @@ typedef struct {
 static insole_auto_start_t begin_start(const insole_auto_start_config_t *config)
 {
     insole_auto_start_t start;
-    ck_assert_int_eq(insole_auto_start_init(&start, config), INSOLE_OK);
+    ck_assert_int_eq(insole_auto_start_init(&start, config, &insole_auto_start_circles), INSOLE_OK);
     return start;
 }
 
@@ -655,7 +655,7 @@ static insole_status_t judge(void)
     insole_auto_start_t start;
     memset(&start, 0x5a, sizeof start);
     insole_auto_start_t before = start;
-    insole_status_t status = insole_auto_start_init(&start, &config);
+    insole_status_t status = insole_auto_start_init(&start, &config, &insole_auto_start_circles);
     ck_assert(status == INSOLE_OK || memcmp(&start, &before, sizeof start) == 0);
     return status;
 }
@@ -667,8 +667,21 @@ START_TEST(settings_have_their_ranges)
     INSOLE_AUTO_START_KEYS(SETTING_HAS_ENDS)
     insole_auto_start_t start;
     memset(&start, 0x5a, sizeof start);
-    ck_assert_int_eq(insole_auto_start_init(NULL, &config), INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(start, insole_auto_start_init(&start, NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_auto_start_init(NULL, &config, &insole_auto_start_circles),
+                     INSOLE_ERR_NULL);
+    ASSERT_UNCHANGED(start, insole_auto_start_init(&start, NULL, &insole_auto_start_circles),
+                     INSOLE_ERR_NULL);
+}
+END_TEST
+
+START_TEST(circles_are_refused_where_there_are_none)
+{
+    insole_auto_start_t start;
+    memset(&start, 0x5a, sizeof start);
+    config = insole_auto_start_defaults;
+    ck_assert_int_eq(insole_auto_start_init(&start, &config, NULL), INSOLE_OK);
+    config.method = INSOLE_AUTO_START_CIRCLES;
+    ASSERT_UNCHANGED(start, insole_auto_start_init(&start, &config, NULL), INSOLE_ERR_VALUE);
 }
 END_TEST
 
@@ -763,6 +776,7 @@ Suite *insole_suite(void)
     suite_add(suite, "vague", a_way_in_a_vague_direction_is_vague);
     suite_add_loop(suite, "finite", many_fixes_and_any_input_stay_finite, 4);
     suite_add(suite, "settings", settings_have_their_ranges);
+    suite_add(suite, "no circles", circles_are_refused_where_there_are_none);
     suite_add(suite, "refused", bad_input_is_refused);
     suite_add(suite, "saved", a_saved_state_goes_on_alike);
     return suite;

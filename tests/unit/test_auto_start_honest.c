@@ -173,7 +173,7 @@ static insole_auto_start_answer_t find(walk_t *w, const plot_t *plot)
 {
     insole_auto_start_t start;
     insole_auto_start_answer_t answer;
-    ck_assert_int_eq(insole_auto_start_init(&start, &insole_auto_start_defaults), INSOLE_OK);
+    ck_assert_int_eq(insole_auto_start_init(&start, &insole_auto_start_defaults, NULL), INSOLE_OK);
     if (plot->has_compass) {
         insole_real_t told = (insole_real_t)(w->offset + uniform(-0.4, 0.4)); /* 0.23 rms */
         ck_assert_int_eq(insole_auto_start_compass(&start, told, INSOLE_R(0.25)), INSOLE_OK);

@@ -265,7 +265,35 @@ START_TEST(other_bad_arguments_are_refused)
     ck_assert_int_eq(insole_foot_anchor_follow(NULL, origin, true), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_foot_anchor_renew(NULL, &fix, origin, INSOLE_R(0.0)), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_foot_anchor_to_map(NULL, &fix), INSOLE_ERR_NULL);
+    insole_sym3_t P = insole_sym3_zero();
+    ck_assert_int_eq(insole_foot_anchor_put(NULL, &origin, &P, &fix), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_foot_anchor_put(a, NULL, &P, &fix), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_foot_anchor_put(a, &origin, NULL, &fix), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_foot_anchor_put(a, &origin, &P, NULL), INSOLE_ERR_NULL);
     ck_assert_mem_eq(&fix, &bad, sizeof fix);
+}
+END_TEST
+
+/* Place and covariance may come apart from the fix; its state, and what it held of them, is no
+ * matter. */
+START_TEST(what_comes_apart_is_put_alike)
+{
+    set_up(&START, at(1.0, 2.0, 3.0), 5000000u);
+    follow(3.0, 1.0, true);
+    insole_vec3_t place = at(4.0, -2.0, 0.5);
+    insole_sym3_t P = {INSOLE_R(0.3), INSOLE_R(0.1), INSOLE_R(9.0),
+                       INSOLE_R(0.2), INSOLE_R(8.0), INSOLE_R(0.4)};
+    insole_fix_t whole = fix_at(4.0, -2.0, 0.5, 20000000u), put = fix_at(7.0, 7.0, 7.0, 20000000u);
+    whole.heading_rad = put.heading_rad = INSOLE_R(0.7);
+    whole.var_heading_rad2 = put.var_heading_rad2 = INSOLE_R(0.01);
+    whole.var_x_m2 = P.xx;
+    whole.cov_xy_m2 = P.xy;
+    whole.var_y_m2 = P.yy;
+    whole.var_z_m2 = P.zz;
+    put.var_x_m2 = put.var_z_m2 = INSOLE_R(77.0);
+    ck_assert_int_eq(insole_foot_anchor_to_map(&anchor, &whole), INSOLE_OK);
+    ck_assert_int_eq(insole_foot_anchor_put(&anchor, &place, &P, &put), INSOLE_OK);
+    ck_assert_mem_eq(&put, &whole, sizeof put);
 }
 END_TEST
 
@@ -278,6 +306,7 @@ Suite *insole_suite(void)
     suite_add(suite, "start", start_is_where_it_was_told);
     suite_add(suite, "heading of two strides", heading_is_that_of_the_first_two_strides);
     suite_add(suite, "start without heading", start_without_heading_keeps_the_turn);
+    suite_add(suite, "apart", what_comes_apart_is_put_alike);
     suite_add(suite, "renewed anchor", renewed_anchor_leaves_the_place_and_widens_the_turn);
     suite_add(suite, "bad starts", bad_starts_are_refused);
     suite_add(suite, "other bad arguments", other_bad_arguments_are_refused);

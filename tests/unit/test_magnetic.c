@@ -208,6 +208,7 @@ START_TEST(settings_have_their_ranges)
     config = insole_magnetic_defaults;
     ck_assert_int_eq(config.use, 0);
     INSOLE_MAGNETIC_KEYS(SETTING_HAS_ENDS)
+    ck_assert_int_eq(insole_magnetic_check(NULL), INSOLE_ERR_NULL);
     insole_magnetic_t magnetic;
     memset(&magnetic, 0x5a, sizeof magnetic);
     ck_assert_int_eq(insole_magnetic_init(NULL, &config), INSOLE_ERR_NULL);

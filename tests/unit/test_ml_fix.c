@@ -4,6 +4,7 @@
 #include "fingerprints.h"
 #include "refusal.h"
 #include "setting.h"
+#include "solver_calls.h"
 #include "suite.h"
 
 enum { APS = 60 };
@@ -263,24 +264,13 @@ START_TEST(refusals)
 {
     insole_radio_fix_t fix;
     insole_trusted_area_t nowhere = {{500, 500}, 10}, bad = {{0, 0}, -1};
-    const insole_radio_map_t *map = &prints.map;
     begin(1, 0);
     memset(&fix, 0x5a, sizeof fix);
     insole_radio_fix_t untouched = fix;
     uint32_t count = prints_listen(&rng, APS, 20.0, 20.0, 1.0, 0.0, readings);
     ASSERT_UNCHANGED(ml, solve(&bad, count, &fix), INSOLE_ERR_VALUE);
     ASSERT_UNCHANGED(ml, solve(NULL, 2, &fix), INSOLE_ERR_STATE);
-    ASSERT_UNCHANGED(ml, insole_ml_fix_finish(&ml, map, &fix), INSOLE_ERR_STATE);
-    ASSERT_UNCHANGED(ml, insole_ml_fix_begin(&ml, NULL, NULL, readings, 9), INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(ml, insole_ml_fix_begin(&ml, map, NULL, NULL, 9), INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(ml, insole_ml_fix_finish(&ml, map, NULL), INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(ml, insole_ml_fix_finish(&ml, NULL, &fix), INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(ml, solve(NULL, count, NULL), INSOLE_ERR_NULL);
-    ck_assert_int_eq(insole_ml_fix_begin(NULL, map, NULL, readings, 9), INSOLE_ERR_NULL);
-    ck_assert_int_eq(insole_ml_fix_finish(NULL, map, &fix), INSOLE_ERR_NULL);
-    ck_assert(!insole_ml_fix_work(NULL, map, 1));
-    ck_assert(!insole_ml_fix_work(&ml, NULL, 1));
-    ck_assert(!insole_ml_fix_work(&ml, map, 1));
     ck_assert_int_eq(solve(&nowhere, count, &fix), INSOLE_ERR_STATE);
     ck_assert_mem_eq(&fix, &untouched, sizeof fix);
     prints.map.bins = NULL;
@@ -294,28 +284,15 @@ END_TEST
 /* In slices through the table the same bits as at once. */
 START_TEST(the_table_is_the_calls_it_names)
 {
-    const insole_radio_solver_calls_t *calls = &insole_ml_fix_calls;
-    const insole_radio_map_t *map = &prints.map;
-    insole_radio_fix_t direct, named;
-    insole_trusted_area_t near = {{18, 22}, 12}, bad = {{0, 0}, -1};
+    insole_radio_fix_t direct;
+    insole_trusted_area_t near = {{18, 22}, 12};
     begin(_i % 2, _i / 2);
-    insole_ml_fix_t state = ml;
     uint32_t count = prints_listen(&rng, APS, 20.0, 20.0, 3.0, 0.0, readings);
+    solver_scan_t scan = {&prints.map, readings, count};
+    insole_ml_fix_t state = ml;
     ck_assert_int_eq(solve(&near, count, &direct), INSOLE_OK);
-    ck_assert_int_eq(calls->begin(&state, map, &near, readings, count), INSOLE_OK);
-    while (calls->work(&state, map, 7u)) {
-        ck_assert_int_eq(calls->finish(&state, map, &named), INSOLE_ERR_STATE);
-    }
-    ck_assert_int_eq(calls->finish(&state, map, &named), INSOLE_OK);
-    ck_assert_mem_eq(&named.spot, &direct.spot, sizeof named.spot);
-    ck_assert(named.var_x_m2 == direct.var_x_m2 && named.cov_xy_m2 == direct.cov_xy_m2);
-    ck_assert(named.var_y_m2 == direct.var_y_m2);
-    ASSERT_UNCHANGED(state, calls->finish(&state, map, &named), INSOLE_ERR_STATE);
-    ASSERT_UNCHANGED(state, calls->begin(&state, map, &bad, readings, count), INSOLE_ERR_VALUE);
-    ASSERT_UNCHANGED(state, calls->begin(&state, NULL, NULL, readings, count), INSOLE_ERR_NULL);
-    ck_assert_int_eq(calls->begin(NULL, map, NULL, readings, count), INSOLE_ERR_NULL);
-    ck_assert(!calls->work(NULL, map, 7u));
-    ck_assert_int_eq(calls->finish(NULL, map, &named), INSOLE_ERR_NULL);
+    check_solver_slices(&insole_ml_fix_calls, &state, &scan, &near, &direct);
+    check_solver_refusals(&insole_ml_fix_calls, &state, sizeof state, &scan);
 }
 END_TEST
 

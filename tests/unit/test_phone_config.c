@@ -80,14 +80,6 @@ START_TEST(every_key_of_the_attitude_has_its_range)
 }
 END_TEST
 
-START_TEST(every_key_of_the_field_has_its_range)
-{
-    config = insole_phone_tracker_defaults;
-    insole_magnetic_config_t *part = &config.magnetic;
-    INSOLE_MAGNETIC_KEYS(SETTING_OF_PART_HAS_ENDS)
-}
-END_TEST
-
 START_TEST(every_key_of_the_steps_has_its_range)
 {
     config = insole_phone_tracker_defaults;
@@ -155,7 +147,7 @@ START_TEST(parts_take_what_is_taken_here)
     ck_assert_int_eq(insole_attitude_init(&attitude, &config.attitude), INSOLE_OK);
     ck_assert_int_eq(insole_step_init(&steps, &config.walk.step), INSOLE_OK);
     ck_assert_int_eq(insole_phone_compass_init(&compass, &config.compass), INSOLE_OK);
-    ck_assert_int_eq(insole_auto_start_init(&start, &config.auto_start), INSOLE_OK);
+    ck_assert_int_eq(insole_auto_start_init(&start, &config.auto_start, NULL), INSOLE_OK);
 }
 END_TEST
 
@@ -190,7 +182,6 @@ START_TEST(nothing_is_refused)
 {
     ck_assert_int_eq(insole_phone_config_check(NULL), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_attitude_check(NULL), INSOLE_ERR_NULL);
-    ck_assert_int_eq(insole_magnetic_check(NULL), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_step_check(NULL), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_step_length_check(NULL), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_phone_compass_check(NULL), INSOLE_ERR_NULL);
@@ -208,7 +199,6 @@ Suite *insole_suite(void)
     suite_add(suite, "keys of the screen", every_key_of_the_screen_has_its_range);
     suite_add(suite, "keys of the rest bias", every_key_of_the_rest_bias_has_its_range);
     suite_add(suite, "keys of the attitude", every_key_of_the_attitude_has_its_range);
-    suite_add(suite, "keys of the field", every_key_of_the_field_has_its_range);
     suite_add(suite, "keys of the steps", every_key_of_the_steps_has_its_range);
     suite_add(suite, "keys of the walk", every_key_of_the_walk_has_its_range);
     suite_add(suite, "keys of the lengths", every_key_of_the_lengths_has_its_range);

@@ -114,7 +114,7 @@ static void set_up(const insole_step_filter_t *filter, bool has_radio)
     const fake_t blank = {.starts = INSOLE_OK};
     fake = blank;
     ck_assert_int_eq(insole_phone_place_init(&place, &insole_phone_place_defaults, &start_settings,
-                                             filter, has_radio),
+                                             NULL, filter, has_radio),
                      INSOLE_OK);
 }
 
@@ -774,7 +774,7 @@ START_TEST(filters_that_lack_a_part_are_refused)
     calls.answer = _i == 3 ? NULL : fake_answer;
     ASSERT_UNCHANGED(place,
                      insole_phone_place_init(&place, &insole_phone_place_defaults, &start_settings,
-                                             &lacking, true),
+                                             NULL, &lacking, true),
                      INSOLE_ERR_VALUE);
 }
 END_TEST
@@ -784,7 +784,7 @@ static insole_phone_place_config_t config;
 static insole_status_t judge(void)
 {
     insole_phone_place_t tried;
-    return insole_phone_place_init(&tried, &config, &start_settings, &plain, true);
+    return insole_phone_place_init(&tried, &config, &start_settings, NULL, &plain, true);
 }
 
 START_TEST(every_setting_has_its_range)
@@ -794,9 +794,19 @@ START_TEST(every_setting_has_its_range)
     ck_assert_int_eq(judge(), INSOLE_OK);
     INSOLE_PHONE_PLACE_KEYS(SETTING_HAS_ENDS)
     set_up(&plain, true);
+    start.method = INSOLE_AUTO_START_CIRCLES;
+    ASSERT_UNCHANGED(
+        place,
+        insole_phone_place_init(&place, &insole_phone_place_defaults, &start, NULL, &plain, true),
+        INSOLE_ERR_VALUE);
+    ck_assert_int_eq(insole_phone_place_init(&place, &insole_phone_place_defaults, &start,
+                                             &insole_auto_start_circles, &plain, true),
+                     INSOLE_OK);
+    start = start_settings;
     start.fixes = 0;
     ASSERT_UNCHANGED(
-        place, insole_phone_place_init(&place, &insole_phone_place_defaults, &start, &plain, true),
+        place,
+        insole_phone_place_init(&place, &insole_phone_place_defaults, &start, NULL, &plain, true),
         INSOLE_ERR_VALUE);
 }
 END_TEST
@@ -822,13 +832,13 @@ START_TEST(null_is_refused)
     insole_spot_fix_t fix = {1u, {0, 0}, {1, 0, 1}, {0, 0}};
     insole_start_t start = start_at(0.0, 0.0, 0.0);
     set_up_started(&plain);
-    ck_assert_int_eq(insole_phone_place_init(NULL, defaults, starts, &plain, true),
+    ck_assert_int_eq(insole_phone_place_init(NULL, defaults, starts, NULL, &plain, true),
                      INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(place, insole_phone_place_init(&place, NULL, starts, &plain, true),
+    ASSERT_UNCHANGED(place, insole_phone_place_init(&place, NULL, starts, NULL, &plain, true),
                      INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(place, insole_phone_place_init(&place, defaults, NULL, &plain, true),
+    ASSERT_UNCHANGED(place, insole_phone_place_init(&place, defaults, NULL, NULL, &plain, true),
                      INSOLE_ERR_NULL);
-    ASSERT_UNCHANGED(place, insole_phone_place_init(&place, defaults, starts, NULL, true),
+    ASSERT_UNCHANGED(place, insole_phone_place_init(&place, defaults, starts, NULL, NULL, true),
                      INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(place, insole_phone_place_tell(&place, NULL), INSOLE_ERR_NULL);
     ASSERT_UNCHANGED(place, insole_phone_place_step(&place, 1u, NULL), INSOLE_ERR_NULL);

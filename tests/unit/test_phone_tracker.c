@@ -248,7 +248,7 @@ START_TEST(the_field_holds_the_heading_if_it_may)
             samples[i].gyro_radps.z += (insole_real_t)creep_radps;
         }
         rig_case_t c = usual_case(&usual_hand);
-        c.config.magnetic.use = use;
+        c.magnetic.use = use;
         c.config.compass.use = 0;
         c.sees = true;
         run_case(&rig, &c);
@@ -256,7 +256,7 @@ START_TEST(the_field_holds_the_heading_if_it_may)
         off_rad[use] = fabs(
             remainder((double)fixes[fix_count - 1u].heading_rad - (double)fixes[200].heading_rad,
                       6.283185307179586));
-        ck_assert_uint_eq(rig.phone.magnetic.corrected > 100u, use == 1);
+        ck_assert_uint_eq(rig.magnetic.corrected > 100u, use == 1);
     }
     double crept_s = 1e-6 * (double)(samples[sample_count - 1u].t_us - samples[200].t_us);
     ck_assert_double_gt(off_rad[0], 0.5 * creep_radps * crept_s);

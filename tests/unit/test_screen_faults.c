@@ -343,8 +343,8 @@ START_TEST(absurd_values_are_held)
     imu.gyro_radps.y = INSOLE_R(101.0);
     push(&imu);
     ck_assert_uint_eq(screen.counts.not_finite, 1u);
-    ASSERT_NEAR(screen.pending.imu.accel_mps2.z, 1999.0, 0.0, "m/s^2");
-    ASSERT_NEAR(screen.pending.imu.gyro_radps.y, 99.0, 0.0, "rad/s");
+    ASSERT_NEAR(screen.slots[screen.newest].clean.imu.accel_mps2.z, 1999.0, 0.0, "m/s^2");
+    ASSERT_NEAR(screen.slots[screen.newest].clean.imu.gyro_radps.y, 99.0, 0.0, "rad/s");
 }
 END_TEST
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/fuse/step_ukf.h"
 
+#include "filter_calls.h"
 #include "insole/fuse/step_ekf.h"
 #include "near.h"
 #include "plane.h"
@@ -132,18 +133,9 @@ START_TEST(the_table_steps_by_it)
 {
     insole_rng_t rng;
     insole_rng_seed(&rng, 6u);
-    insole_step_fusion_t fusion;
-    insole_step_filter_begin_t begin = {.cov_m2 = {1, 0, 1}};
-    ck_assert_int_eq(insole_step_fusion_init(&fusion, &insole_step_fusion_defaults), INSOLE_OK);
-    ck_assert_int_eq(insole_step_ukf_calls.start(&fusion, &begin), INSOLE_OK);
     insole_pace_t pace = some_pace(&rng, INSOLE_R(0.1));
     insole_step_way_t way = insole_step_ukf(&pace);
-    ck_assert_int_eq(insole_step_ukf_calls.step(&fusion, 1u, &pace), INSOLE_OK);
-    ASSERT_NEAR(fusion.spot.x_m, way.mean.x_m, 4.0 * EPS, "m");
-    ASSERT_NEAR(fusion.spot.y_m, way.mean.y_m, 4.0 * EPS, "m");
-    ASSERT_NEAR(fusion.P.xx, 1.0 + (double)way.Q.xx, 4.0 * EPS, "m^2");
-    ASSERT_NEAR(fusion.P.xy, (double)way.Q.xy, 4.0 * EPS, "m^2");
-    ASSERT_NEAR(fusion.P.yy, 1.0 + (double)way.Q.yy, 4.0 * EPS, "m^2");
+    check_filter_steps_by(&insole_step_ukf_calls, &pace, &way);
 }
 END_TEST
 

@@ -334,6 +334,62 @@ START_TEST(bad_arguments_are_refused)
 }
 END_TEST
 
+/* Most samples told in short: strides as if all had been pushed. */
+START_TEST(samples_told_in_short_count_alike)
+{
+    insole_stride_counter_t brief;
+    insole_stride_t told;
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 8u);
+    begin(&insole_stride_defaults);
+    brief = counter;
+    uint32_t strides = 0u, short_ones = 0u, all = 0u;
+    bool still = true;
+    for (int left = 0; all < 20000u; all++, left--) {
+        if (left == 0) {
+            left = 1 + (int)(insole_rng_bits(&rng) % 60u);
+            still = !still;
+        }
+        insole_vec3_t step = sample_vec3(&rng, still ? INSOLE_R(0.001) : INSOLE_R(0.2));
+        foot.position_m = insole_vec3_add(foot.position_m, step);
+        foot.yaw_rad = sample_between(&rng, INSOLE_R(-3.0), INSOLE_R(3.0));
+        bool stride_ended = push(still, 9.81 + (double)step.x);
+        if (insole_stride_go_on(&brief, foot.t_us, foot.vertical_force_mps2, still)) {
+            ck_assert(!stride_ended);
+            short_ones++;
+        } else {
+            insole_status_t expected = stride_ended ? INSOLE_OK : INSOLE_ERR_STATE;
+            ck_assert_int_eq(insole_stride_push(&brief, &foot, &told), expected);
+            if (stride_ended) {
+                ck_assert_mem_eq(&told, &stride, sizeof told);
+                strides++;
+            }
+        }
+    }
+    ck_assert_uint_gt(strides, 200u);
+    ck_assert_uint_gt(short_ones, all / 2u);
+}
+END_TEST
+
+START_TEST(what_is_not_told_in_short_leaves_no_trace)
+{
+    begin(&insole_stride_defaults);
+    before = counter;
+    ck_assert(!insole_stride_go_on(&counter, 1u, INSOLE_R(9.0), true));
+    ck_assert_mem_eq(&counter, &before, sizeof counter);
+    stand(3); /* not settled */
+    before = counter;
+    ck_assert(!insole_stride_go_on(&counter, foot.t_us + 1u, INSOLE_R(9.0), true));
+    ck_assert(!insole_stride_go_on(&counter, foot.t_us + 1u, INSOLE_R(9.0), false));
+    ck_assert_mem_eq(&counter, &before, sizeof counter);
+    stand(30);
+    ck_assert(insole_stride_go_on(&counter, foot.t_us + 1u, INSOLE_R(9.0), true));
+    before = counter;
+    ck_assert(!insole_stride_go_on(&counter, foot.t_us + 2u, INSOLE_R(9.0), false));
+    ck_assert_mem_eq(&counter, &before, sizeof counter);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("stride");
@@ -351,5 +407,7 @@ Suite *insole_suite(void)
     suite_add(suite, "begins in motion", log_that_begins_in_motion_has_its_first_stride_later);
     suite_add(suite, "bad samples", bad_samples_are_refused_and_counted);
     suite_add(suite, "bad arguments", bad_arguments_are_refused);
+    suite_add(suite, "in short", samples_told_in_short_count_alike);
+    suite_add(suite, "not in short", what_is_not_told_in_short_leaves_no_trace);
     return suite;
 }

@@ -103,6 +103,8 @@ START_TEST(one_bad_component_makes_a_vector_not_finite)
                                  -(insole_real_t)INFINITY};
     insole_vec3_t good = insole_vec3(INSOLE_REAL_MAX, -INSOLE_REAL_MAX, INSOLE_R(0.0));
     ck_assert(insole_vec3_is_finite(good));
+    ck_assert(insole_vec3_is_within(good, insole_vec3_max_abs(good)));
+    ck_assert(!insole_vec3_is_within(good, INSOLE_R(0.999) * insole_vec3_max_abs(good)));
     for (int i = 0; i < 3; i++) {
         insole_vec3_t x = good, y = good, z = good;
         x.x = bad[i];
@@ -111,6 +113,9 @@ START_TEST(one_bad_component_makes_a_vector_not_finite)
         ck_assert(!insole_vec3_is_finite(x));
         ck_assert(!insole_vec3_is_finite(y));
         ck_assert(!insole_vec3_is_finite(z));
+        ck_assert(!insole_vec3_is_within(x, INSOLE_REAL_MAX));
+        ck_assert(!insole_vec3_is_within(y, INSOLE_REAL_MAX));
+        ck_assert(!insole_vec3_is_within(z, INSOLE_REAL_MAX));
     }
 }
 END_TEST

@@ -253,6 +253,60 @@ START_TEST(a_gap_of_hours_keeps_the_stamps)
 }
 END_TEST
 
+START_TEST(a_gap_of_years_keeps_the_stamps)
+{
+    static insole_zero_velocity_t zv;
+    insole_zero_velocity_init(&zv, &insole_zero_velocity_defaults);
+    memset(&record, 0, sizeof record);
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 1u);
+    uint64_t years_us = UINT64_C(5) * 365u * 86400u * 1000000u, last_us = 0u;
+    for (int i = 0; i < 600; i++) {
+        insole_imu_t imu = feel(&WALKING, i / 200.0, &rng);
+        imu.t_us += i < 300 ? UINT64_C(4294967000) : years_us;
+        last_us = imu.t_us;
+        ck_assert_int_eq(insole_zero_velocity_push(&zv, &imu, 0u), INSOLE_OK);
+        take(&zv, &record, imu.t_us);
+    }
+    insole_zero_velocity_finish(&zv);
+    take(&zv, &record, last_us);
+    ck_assert_int_eq(record.count, 600);
+    worst_t stamps = {0.0, 0.0};
+    for (int i = 0; i < 600; i++) {
+        uint64_t begin_us = i < 300 ? UINT64_C(4294967000) : years_us;
+        worst_require(&stamps, record.out[i].imu.t_us - begin_us == (uint64_t)i * 5000u, i);
+    }
+    ASSERT_ALL_HELD(stamps);
+}
+END_TEST
+
+/* Unchecked, a good sample is the same. */
+START_TEST(what_is_known_to_be_good_is_taken_alike)
+{
+    static insole_zero_velocity_t pushed, taken;
+    insole_zero_velocity_init(&pushed, &insole_zero_velocity_defaults);
+    insole_zero_velocity_init(&taken, &insole_zero_velocity_defaults);
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 2u);
+    insole_labelled_t out, same;
+    memset(&out, 0, sizeof out);
+    memset(&same, 0, sizeof same);
+    int count = 0;
+    for (int i = 0; i < 2000; i++) {
+        insole_imu_t imu = feel(i < 1000 ? &WALKING : &RUNNING, i / 200.0, &rng);
+        ck_assert_int_eq(insole_zero_velocity_push(&pushed, &imu, (uint8_t)i), INSOLE_OK);
+        insole_zero_velocity_take(&taken, &imu, (uint8_t)i);
+        while (insole_zero_velocity_next(&pushed, &out) == INSOLE_OK) {
+            ck_assert_int_eq(insole_zero_velocity_next(&taken, &same), INSOLE_OK);
+            count += memcmp(&out, &same, sizeof out) == 0 ? 1 : 0;
+        }
+    }
+    ck_assert_int_gt(count, 1800);
+    ck_assert_int_eq(count, (int)pushed.ring.begin);
+    ck_assert_mem_eq(&pushed, &taken, sizeof pushed);
+}
+END_TEST
+
 START_TEST(saved_in_mid_walk_it_goes_on_the_same)
 {
     static insole_zero_velocity_t zv, saved;
@@ -349,6 +403,8 @@ Suite *insole_suite(void)
     suite_add(suite, "two-step", two_step_closes_holes_as_told);
     suite_add_loop(suite, "prefix", a_cut_stream_has_the_same_labels, 8);
     suite_add(suite, "long gap", a_gap_of_hours_keeps_the_stamps);
+    suite_add(suite, "longer gap", a_gap_of_years_keeps_the_stamps);
+    suite_add(suite, "unchecked", what_is_known_to_be_good_is_taken_alike);
     suite_add(suite, "save", saved_in_mid_walk_it_goes_on_the_same);
     suite_add(suite, "full", a_full_line_asks_to_be_emptied);
     suite_add(suite, "refusals", refusals_change_nothing);

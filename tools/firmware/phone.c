@@ -22,10 +22,9 @@ const uint8_t tracker_name = WIRE_PHONE;
 
 bool tracker_begin(uint32_t seed)
 {
-    const insole_phone_parts_t parts = {insole_attitude_ekf,
-                                        {&insole_kde_fix_calls, &phone.kde},
-                                        {&insole_step_ekf_calls, &phone.fusion},
-                                        {NULL, NULL, NULL}};
+    const insole_phone_parts_t parts = {.attitude = insole_attitude_ekf,
+                                        .solver = {&insole_kde_fix_calls, &phone.kde},
+                                        .filter = {&insole_step_ekf_calls, &phone.fusion}};
     (void)seed; /* nothing is drawn */
     return insole_step_fusion_init(&phone.fusion, &insole_step_fusion_defaults) == INSOLE_OK &&
            insole_kde_fix_init(&phone.kde, &insole_kde_fix_defaults) == INSOLE_OK &&

@@ -31,8 +31,9 @@
 
 #define PHONE_TRACKER_ROW(kind, name, ...)                                                         \
     ROW(phone_tracker, phone.tracker, kind, name, __VA_ARGS__)
-#define MAGNETIC_ROW(kind, name, ...) ROW(magnetic, phone.tracker.magnetic, kind, name, __VA_ARGS__)
+#define MAGNETIC_ROW(kind, name, ...) ROW(magnetic, phone.magnetic, kind, name, __VA_ARGS__)
 
+#define PHONE_GAIT_ROW(kind, name, ...) ROW(phone_walk, phone.gait, kind, name, __VA_ARGS__)
 #define PHONE_WALK_ROW(kind, name, ...) ROW(phone_walk, phone.tracker.walk, kind, name, __VA_ARGS__)
 #define PHONE_PLACE_ROW(kind, name, ...)                                                           \
     ROW(phone_place, phone.tracker.place, kind, name, __VA_ARGS__)
@@ -85,6 +86,7 @@ static const config_key_t keys[] = {
     PHONE_PARTS_KEYS(PHONE_PARTS_ROW)
     INSOLE_PHONE_TRACKER_KEYS(PHONE_TRACKER_ROW)
     INSOLE_PHONE_WALK_KEYS(PHONE_WALK_ROW)
+    INSOLE_PHONE_GAIT_KEYS(PHONE_GAIT_ROW)
     INSOLE_PHONE_PLACE_KEYS(PHONE_PLACE_ROW)
     INSOLE_PHONE_COMPASS_KEYS(PHONE_COMPASS_ROW)
     INSOLE_ATTITUDE_KEYS(ATTITUDE_ROW)

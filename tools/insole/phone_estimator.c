@@ -68,8 +68,8 @@ static void watch_steps(phone_estimator_t *estimator)
         event->length_m = hypot(x_m, y_m);
         event->heading_rad = remainder(atan2(y_m, x_m) + turn_rad, 6.283185307179586);
     }
-    int32_t position = insole_phone_walk_position(&estimator->tracker.walk);
-    if (position != INSOLE_CARRY_NONE) {
+    int32_t position = estimator->tracker.walk.lie.position;
+    if (position != INSOLE_PHONE_NO_POSITION) {
         estimator->carried[position] += fresh;
     }
     estimator->steps = way->ring.end;

@@ -140,11 +140,16 @@ static bool set_up_states(phone_parts_t *parts, const phone_settings_t *settings
     if (is_constant) {
         fusion.process = fusion.measurement = INSOLE_STEP_CONSTANT;
     }
-    parts->library.gait.heading = &parts->walk_heading;
-    parts->library.gait.carry = &parts->carry;
-    parts->library.gait.forest = &insole_carry_table_forest;
-    return insole_walk_heading_init(&parts->walk_heading, &settings->walk_heading) == INSOLE_OK &&
+    parts->library.guide.calls = &insole_phone_gait_calls;
+    parts->library.guide.state = &parts->gait;
+    parts->library.magnetic.push = insole_magnetic_push;
+    parts->library.magnetic.state = &parts->magnetic;
+    parts->library.circles = &insole_auto_start_circles;
+    return insole_magnetic_init(&parts->magnetic, &settings->magnetic) == INSOLE_OK &&
+           insole_walk_heading_init(&parts->walk_heading, &settings->walk_heading) == INSOLE_OK &&
            insole_carry_init(&parts->carry, &settings->carry) == INSOLE_OK &&
+           insole_phone_gait_init(&parts->gait, &settings->gait, &parts->walk_heading,
+                                  &parts->carry, &insole_carry_table_forest) == INSOLE_OK &&
            insole_kde_fix_init(&parts->kde_fix, &settings->kde_fix) == INSOLE_OK &&
            insole_ml_fix_init(&parts->ml_fix, &settings->ml_fix) == INSOLE_OK &&
            insole_step_fusion_init(&parts->step_fusion, &fusion) == INSOLE_OK &&

@@ -19,6 +19,7 @@
 #include "insole/fuse/walker_filter.h"
 #include "insole/place/kde_fix.h"
 #include "insole/place/ml_fix.h"
+#include "insole/track/phone_gait.h"
 #include "insole/track/phone_tracker.h"
 
 #include "estimator_setup.h"
@@ -32,8 +33,10 @@ typedef struct {
     insole_phone_tracker_config_t config;
     insole_phone_parts_t library;
     const insole_radio_map_t *map; /**< NULL: the method has no use for it, or there is none */
+    insole_magnetic_t magnetic;
     insole_walk_heading_t walk_heading;
     insole_carry_t carry;
+    insole_phone_gait_t gait;
     insole_step_fusion_t step_fusion;
     insole_ml_shift_t ml_shift;
     insole_walker_ekf_t walker_ekf;

@@ -11,6 +11,8 @@ void settings_init(settings_t *settings)
     settings->propagation = insole_propagation_defaults;
     settings->phone.parts = parts_defaults;
     settings->phone.tracker = insole_phone_tracker_defaults;
+    settings->phone.magnetic = insole_magnetic_defaults;
+    settings->phone.gait = insole_phone_gait_defaults;
     settings->phone.walk_heading = insole_walk_heading_defaults;
     settings->phone.carry = insole_carry_defaults;
     settings->phone.step_fusion = insole_step_fusion_defaults;

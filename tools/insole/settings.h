@@ -9,10 +9,14 @@
 #include "insole/fuse/step_cloud.h"
 #include "insole/fuse/step_fusion.h"
 #include "insole/fuse/walker_ekf.h"
+#include "insole/move/magnetic.h"
+#include "insole/move/walk_heading.h"
 #include "insole/place/kde_fix.h"
 #include "insole/place/ml_fix.h"
+#include "insole/sense/carry.h"
 #include "insole/track/foot_fusion.h"
 #include "insole/track/phone_config.h"
+#include "insole/track/phone_gait.h"
 
 /* clang-format off */
 /** What the program does to the readings of a sensor before the library sees them; firmware does
@@ -50,6 +54,8 @@ typedef struct {
 typedef struct {
     phone_parts_config_t parts;
     insole_phone_tracker_config_t tracker;
+    insole_magnetic_config_t magnetic;
+    insole_phone_gait_config_t gait;
     insole_walk_heading_config_t walk_heading;
     insole_carry_config_t carry;
     insole_step_fusion_config_t step_fusion;

@@ -155,10 +155,8 @@ static inline insole_sym3_t insole_sym3_scale(insole_sym3_t a, insole_real_t s)
 /** A + s I */
 static inline insole_sym3_t insole_sym3_add_diagonal(insole_sym3_t a, insole_real_t s)
 {
-    a.xx += s;
-    a.yy += s;
-    a.zz += s;
-    return a;
+    insole_sym3_t c = {a.xx + s, a.xy, a.xz, a.yy + s, a.yz, a.zz + s};
+    return c;
 }
 
 /** A + s v v' */

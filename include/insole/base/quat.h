@@ -67,8 +67,38 @@ static inline insole_vec3_t insole_quat_rotate_back(insole_quat_t q, insole_vec3
     return insole_mat3_mul_vec_t(insole_quat_to_mat3(q), v);
 }
 
+/** Square of half an angle, [rad^2], below which insole_quat_from_small holds. */
+#define INSOLE_QUAT_SMALL_RAD2 INSOLE_R(0.01)
+
+/** Rotation by a small angle: `half_rad` is half its rotation vector, `half2_rad2` the square of
+ *  its length. What these series leave out is below the last bit. */
+static inline insole_quat_t insole_quat_from_small(insole_vec3_t half_rad, insole_real_t half2_rad2)
+{
+    const insole_real_t one = INSOLE_R(1.0), z = half2_rad2;
+    insole_real_t c = one, s = one; /* the next two terms, that only a double sees */
+    if (INSOLE_REAL_EPSILON < INSOLE_R(1.0e-10)) {
+        c = one - z * (one / INSOLE_R(30.0)) * (one - z * (one / INSOLE_R(56.0)));
+        s = one - z * (one / INSOLE_R(42.0)) * (one - z * (one / INSOLE_R(72.0)));
+    }
+    insole_real_t y = z * INSOLE_R(0.5);
+    c = one - y * (one - y * (one / INSOLE_R(6.0)) * c); /* cos(half) */
+    s = one - z * (one / INSOLE_R(6.0)) * (one - z * (one / INSOLE_R(20.0)) * s);
+    return insole_quat(c, s * half_rad.x, s * half_rad.y, s * half_rad.z);
+}
+
 /** To unit length; a quaternion of no length becomes the identity. */
 insole_quat_t insole_quat_normalize(insole_quat_t q);
+
+/** The same in line, for what runs on each sample. */
+static inline insole_quat_t insole_quat_unit(insole_quat_t q)
+{
+    insole_real_t n = insole_sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (!(n > INSOLE_R(0.0) && n <= INSOLE_REAL_MAX)) {
+        return insole_quat_identity();
+    }
+    insole_real_t s = INSOLE_R(1.0) / n;
+    return insole_quat(q.w * s, q.x * s, q.y * s, q.z * s);
+}
 
 /** Rotation by the angle |v| about v [rad]. */
 insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad);

@@ -34,12 +34,20 @@ typedef float insole_real_t;
 #define INSOLE_FLAT
 #endif
 
-/** Before a function that runs seldom, once a stride or less: it and what only it calls are to be
- *  small rather than fast. */
+/** Before a function that runs seldom: made small rather than fast, and kept out of those that run
+ *  on each sample. */
 #ifdef __GNUC__
 #define INSOLE_COLD __attribute__((cold, noinline))
 #else
 #define INSOLE_COLD
+#endif
+
+/** Before a function that is not to be inlined: callers that do not take this step make no room for
+ *  it. */
+#ifdef __GNUC__
+#define INSOLE_APART __attribute__((noinline))
+#else
+#define INSOLE_APART
 #endif
 
 #define INSOLE_PI INSOLE_R(3.14159265358979323846)

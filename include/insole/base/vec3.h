@@ -89,6 +89,12 @@ static inline insole_real_t insole_vec3_max_abs(insole_vec3_t a)
     return insole_max(insole_max(insole_abs(a.x), insole_abs(a.y)), insole_abs(a.z));
 }
 
+/** Is each component finite, and no larger? */
+static inline bool insole_vec3_is_within(insole_vec3_t a, insole_real_t limit)
+{
+    return insole_abs(a.x) <= limit && insole_abs(a.y) <= limit && insole_abs(a.z) <= limit;
+}
+
 /** One comparison for three: nothing times what is not finite is not nothing. */
 static inline bool insole_vec3_is_finite(insole_vec3_t a)
 {

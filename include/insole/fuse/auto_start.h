@@ -5,7 +5,7 @@
  * offset.
  *
  *      static insole_auto_start_t start;
- *      insole_auto_start_init(&start, &insole_auto_start_defaults);
+ *      insole_auto_start_init(&start, &insole_auto_start_defaults, NULL);
  *      on each step:
  *          insole_auto_start_step(&start, &pace);
  *      with a magnetometer, whenever there is news of it:
@@ -24,7 +24,8 @@
  *  answered without iterations, from no knowledge of the direction on.
  *
  *  `circles`: circle_start.h over the first `fixes` fixes, as printed, with the running mean of the
- *  places. A compass is of no use to it.
+ *  places. A compass is of no use to it. Who does not give
+ *  `&insole_auto_start_circles` to the init does not link it.
  *
  *  The covariance is that of least squares: what fixes have in common stays, however many there
  *  are. The direction's variance is never less than that of its density. To `circles` the squared
@@ -81,7 +82,18 @@ typedef struct {
     insole_real_t along, across; /**< ways times fixes: dot and cross products */
 } insole_auto_start_sums_t;
 
+typedef struct insole_auto_start insole_auto_start_t;
+typedef struct insole_auto_start_answer insole_auto_start_answer_t;
+
+/** What the method `circles` does beside the other. */
 typedef struct {
+    void (*take)(insole_auto_start_t *start, const insole_auto_start_row_t *row);
+    void (*answer)(const insole_auto_start_t *start, insole_auto_start_answer_t *answer);
+} insole_auto_start_circles_t;
+
+extern const insole_auto_start_circles_t insole_auto_start_circles;
+
+struct insole_auto_start {
     insole_auto_start_config_t config;
     insole_real_t bias_m;           /**< 1-sigma of what fixes share; no more than the setting */
     uint32_t fixes;                 /**< taken */
@@ -96,13 +108,14 @@ typedef struct {
     insole_auto_start_sums_t sums;
     bool has_compass;
     insole_real_t compass_rad, compass_sigma_rad;
+    const insole_auto_start_circles_t *circles;          /**< NULL: only `moved` can be asked */
     insole_circle_pair_t pair[INSOLE_CIRCLE_START_MOST]; /**< circles: the first fixes */
     uint32_t pairs;
     insole_spot_t circle_mean; /**< circles: running mean of the places */
     uint32_t refused;
-} insole_auto_start_t;
+};
 
-typedef struct {
+struct insole_auto_start_answer {
     insole_spot_t spot; /**< m, where the walker is now */
     insole_sym2_t cov_m2;
     insole_real_t shared_m2;       /**< of it, by what the newest fix is wrong as well */
@@ -111,11 +124,14 @@ typedef struct {
     insole_spot_t begin;           /**< m, where the first fix was heard */
     uint32_t fixes;
     bool ready; /**< good enough to start, by the settings */
-} insole_auto_start_answer_t;
+};
 
-/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
+/** @param circles  NULL: there are none
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range, or when the method is
+ *          `circles` and there are none */
 insole_status_t insole_auto_start_init(insole_auto_start_t *start,
-                                       const insole_auto_start_config_t *config);
+                                       const insole_auto_start_config_t *config,
+                                       const insole_auto_start_circles_t *circles);
 
 /** @return INSOLE_ERR_NULL; INSOLE_ERR_VALUE as insole_pace_check(), or beyond 100 km */
 insole_status_t insole_auto_start_step(insole_auto_start_t *start, const insole_pace_t *pace);

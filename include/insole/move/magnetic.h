@@ -75,6 +75,13 @@ insole_status_t insole_magnetic_set_field(insole_magnetic_t *magnetic, insole_ve
 insole_status_t insole_magnetic_push(insole_magnetic_t *magnetic, insole_attitude_t *att,
                                      insole_attitude_method_t *method, const insole_mag_t *mag);
 
+/** The push and its state, for a tracker: one that is given none links nothing of it. */
+typedef struct {
+    insole_status_t (*push)(insole_magnetic_t *magnetic, insole_attitude_t *att,
+                            insole_attitude_method_t *method, const insole_mag_t *mag);
+    insole_magnetic_t *state; /**< stays where it is */
+} insole_magnetic_part_t;
+
 /** Direction in n of the level part of a reading, counter-clockwise from +x: magnetic north, where
  *  nothing disturbs. Tests nothing.
  *  @return INSOLE_ERR_STATE before the start, or when less than 1 uT is level; INSOLE_ERR_VALUE */

@@ -80,6 +80,24 @@ insole_status_t insole_stride_init(insole_stride_counter_t *counter,
 insole_status_t insole_stride_push(insole_stride_counter_t *counter,
                                    const insole_stride_input_t *input, insole_stride_t *stride);
 
+/** The foot goes on as it did, in its swing or on a stance that has settled: of what most samples
+ *  tell the counter needs little. @return false, nothing noted: this sample is to be pushed */
+static inline bool insole_stride_go_on(insole_stride_counter_t *counter, uint64_t t_us,
+                                       insole_real_t vertical_force_mps2, bool still)
+{
+    insole_stride_counter_t *c = counter;
+    if (still != c->was_still || (still && !c->settled)) {
+        return false;
+    }
+    if (still) {
+        c->last.t_us = t_us;
+    } else {
+        c->force_min_mps2 = insole_min(vertical_force_mps2, c->force_min_mps2);
+        c->force_max_mps2 = insole_max(vertical_force_mps2, c->force_max_mps2);
+    }
+    return true;
+}
+
 /** The ground moved under the counter (a new origin, a gap): the stride in progress is dropped. */
 void insole_stride_restart(insole_stride_counter_t *counter);
 

@@ -3,7 +3,7 @@
  *  Source  [PhoneUKF] 4: these positions; grown by `insole train-carry` on simulated walkers with
  *          accelerometer and gyroscope (tests/reference/carry_forest.py, which grows it again).
  *
- *      insole_phone_gait_t gait = {&heading, &carry, &insole_carry_table_forest};
+ *      insole_phone_gait_init(&gait, &heading, &carry, &insole_carry_table_forest);
  *
  *  It asks about the turn rate: windows without a gyroscope are refused. Whoever walks with the
  *  phone in another place should grow a forest of their own.

@@ -34,9 +34,9 @@ typedef struct {
     insole_real_t told_radps;    /**< 0 = to be recognised */
     insole_real_t share;         /**< of the range, from which an axis counts as clipped */
     insole_real_t range_radps;   /**< told, or the largest top that was cut off; 0 = none yet */
-    insole_real_t largest_radps; /**< rate that any axis had for two samples */
+    insole_real_t largest_radps; /**< rate that any axis had for two samples, if no slow one */
+    insole_real_t quiet_radps2;  /**< a vector whose square is smaller is only remembered */
     insole_clip_peak_t peak[3];
-    bool in_peak; /**< any axis is in an excursion */
 } insole_gyro_clip_t;
 
 /** @param range_radps 0 to 100; 0 = to be recognised

@@ -20,6 +20,7 @@
 
 #include "insole/base/config.h"
 #include "insole/base/types.h"
+#include "insole/sense/even_clock.h"
 #include "insole/sense/gyro_clip.h"
 
 #ifdef __cplusplus
@@ -78,33 +79,40 @@ typedef struct {
     uint8_t marks;
 } insole_clean_t;
 
-/** The sensor's own clock, followed through the jitter of the stamps. */
+/** What the sample that waits looked like. */
+typedef enum {
+    INSOLE_SCREEN_LIVELY = 0,
+    INSOLE_SCREEN_CALM = 1, /**< too short to be a spike or clipped, and soon after another */
+    INSOLE_SCREEN_HELD = 2, /**< a field was bad and holds the value before */
+    INSOLE_SCREEN_OUT = 3   /**< has gone out before; its successor was wild */
+} insole_screen_look_t;
+
+/** A sample as it came, repaired. */
 typedef struct {
-    insole_real_t period_us;     /**< 0 until known */
-    insole_real_t lead_us;       /**< of the even stamp over the raw one */
-    insole_real_t burst_share;   /**< running share of stamps that follow too soon */
-    uint32_t intervals, span_us; /**< the first ones, from which the period is found */
-} insole_even_clock_t;
+    insole_clean_t clean; /**< with its raw stamp */
+    int32_t lead_us;      /**< of the stamp that it goes out with over the raw one */
+    uint32_t since_us;    /**< time between that stamp and the one before; much: the first */
+} insole_screen_slot_t;
 
 typedef struct {
     insole_screen_config_t config;
     insole_screen_counts_t counts;
-    uint32_t gap_us, hold_us, least_us; /**< settings; the shortest interval that goes out */
+    uint32_t gap_us, hold_us, least_us;    /**< settings; the shortest interval that goes out */
+    insole_real_t calm_accel2, calm_gyro2; /**< squares of the lengths below which all is calm */
     insole_even_clock_t clock;
-    insole_clean_t before, pending; /**< `pending` waits for its successor */
-    uint64_t raw_before_us, raw_us; /**< their stamps as they came */
-    uint32_t back_run;              /**< samples dropped in a row, their stamps going back */
-    uint32_t held;                  /**< of these two, how many there are */
-    bool has_spare;                 /**< `pending` has gone out already */
-    uint64_t last_us;               /**< stamp given to the last sample taken in */
-    uint64_t good_us;               /**< stamp of the last sample without a bad field */
+    insole_screen_slot_t slots[2]; /**< the sample that waits for its successor, the one before */
+    uint32_t newest;               /**< slot of the former */
+    uint32_t held;                 /**< of these two, how many there are */
+    insole_screen_look_t look;     /**< of the former */
+    uint32_t back_run;             /**< samples dropped in a row, their stamps going back */
+    uint64_t good_us;              /**< raw stamp of the last sample before fields were held */
     insole_gyro_clip_t clip;
     insole_vec3_t sum_accel, sum_gyro; /**< of the samples being averaged, weighted by time */
     insole_real_t sum_s;
     uint8_t sum_marks;
     uint32_t sum_count;
-    uint64_t out_us; /**< stamp of the last clean sample */
-    bool has_out, finished;
+    uint64_t out_us; /**< stamp of the clean sample before them */
+    bool finished;
 } insole_screen_t;
 
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */

@@ -60,7 +60,7 @@ insole_status_t insole_still_bias_check(const insole_still_bias_config_t *config
 /** Sums over one block, and what became of them. Values are taken relative to the block's first
  *  sample, so that the squares do not drown in gravity. */
 typedef struct {
-    uint64_t begin_us;
+    uint32_t begin_us; /**< low half of the stamp */
     insole_vec3_t accel0_mps2, gyro0_radps;
     insole_vec3_t accel, gyro;   /**< sums of differences to the first sample */
     insole_real_t accel2, gyro2; /**< sums of their squares, all axes */

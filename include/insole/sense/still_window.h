@@ -52,12 +52,10 @@ typedef struct {
     insole_real_t gravity_mps2, accel_weight, gyro_weight; /**< g, 1 / sa^2, 1 / sw^2 */
     insole_real_t per_n;                                   /**< 1 / width */
     uint32_t width;                                        /**< of the window [samples] */
-    uint32_t count;                                        /**< samples in it */
     uint32_t at;                                           /**< slot of the next sample */
+    bool full;                                             /**< `width` samples have come */
+    insole_still_sums_t sums;                              /**< anew whenever `at` comes round */
     insole_still_sums_t samples[INSOLE_STILL_WINDOW];
-    insole_still_sums_t sums;  /**< over the window */
-    insole_still_sums_t fresh; /**< summed anew; takes over when full: rounding cannot gather */
-    uint32_t fresh_count;
 } insole_still_window_t;
 
 /** @param width  1 to INSOLE_STILL_WINDOW

@@ -27,16 +27,14 @@
 #include "insole/base/config.h"
 #include "insole/base/ring.h"
 #include "insole/base/types.h"
+#include "insole/sense/past_min.h"
 #include "insole/sense/still_window.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-enum {
-    INSOLE_STANCE_RING = 128, /**< samples in the delay line */
-    INSOLE_STANCE_PAST = 8    /**< blocks in which the past minimum of the statistic is kept */
-};
+enum { INSOLE_STANCE_RING = 128 /**< samples in the delay line */ };
 
 typedef enum {
     INSOLE_DETECT_ADAPTIVE = 0,
@@ -104,33 +102,33 @@ typedef struct {
     insole_vec3_t accel_mps2, gyro_radps;
     insole_real_t statistic;
     uint32_t t_us;    /**< low half of the stamp */
-    uint32_t high_us; /**< its high half */
+    uint16_t high_us; /**< of its high half as much as years need */
     uint8_t tag;      /**< the caller's, and the label */
     uint8_t label;
 } insole_stance_slot_t;
 
+/* The long arrays come last: what stands close to the begin of a struct is reached faster. */
 typedef struct {
     insole_zero_velocity_config_t config;
     insole_ring_t ring;
-    insole_stance_slot_t slots[INSOLE_STANCE_RING];
     uint64_t newest_us;
     uint32_t reach_us, spread_us, hole_us; /**< settings in microseconds */
-    uint32_t past_us;                      /**< length of a block of the past */
+    uint32_t ahead_us;                     /**< time after a sample that its judgement looks at */
+    uint32_t back_us;                      /**< time before a sample that its judgement may label */
     uint32_t half;                         /**< half window [samples]; 0 until the rate is known */
-    uint32_t fed;      /**< running number of the next slot that the window is to take */
-    uint32_t measured; /**< running number of the next slot whose statistic is to be formed */
-    uint32_t judged;   /**< running number of the next slot to be judged */
-    insole_still_window_t window;
-    insole_real_t past[INSOLE_STANCE_PAST]; /**< minima of the statistic in blocks of the past */
-    uint32_t past_at;                       /**< index of the block being filled */
-    uint32_t past_began_us;                 /**< low half of the time at which it began */
-    uint32_t last_still_us;                 /**< low half of the stamp of the last still sample */
-    uint32_t last_stance_us;                /**< of the last stance's first sample or minimum */
+    uint32_t fed;            /**< running number of the next slot that the window is to take */
+    uint32_t measured;       /**< running number of the next slot whose statistic is to be formed */
+    uint32_t judged;         /**< running number of the next slot to be judged */
+    insole_past_min_t past;  /**< of the statistic */
+    uint32_t last_still_us;  /**< low half of the stamp of the last still sample */
+    uint32_t last_stance_us; /**< of the last stance's first sample or minimum */
     bool has_still, has_stance;
     insole_real_t period_s;  /**< running mean of the gait period */
     insole_real_t usual_log; /**< running mean of ln(statistic) of stances */
     bool finished;
     uint32_t refused;
+    insole_still_window_t window;
+    insole_stance_slot_t slots[INSOLE_STANCE_RING];
 } insole_zero_velocity_t;
 
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
@@ -142,6 +140,10 @@ insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
  *          the delay line is full: take some out first */
 insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const insole_imu_t *imu,
                                           uint8_t tag);
+
+/** The same for what is known to be welcome: a sample of screen.h that follows the last, and room
+ *  for it. Nothing is checked. */
+void insole_zero_velocity_take(insole_zero_velocity_t *zv, const insole_imu_t *imu, uint8_t tag);
 
 /** The oldest sample whose label is certain. @return INSOLE_ERR_STATE when there is none yet */
 insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out);

@@ -61,7 +61,13 @@ insole_status_t insole_foot_anchor_follow(insole_foot_anchor_t *anchor, insole_v
 insole_status_t insole_foot_anchor_renew(insole_foot_anchor_t *anchor, const insole_fix_t *fix_m,
                                          insole_vec3_t position_n_m, insole_real_t turn_rad2);
 
-/** Position, heading and covariance of a fix from n to m. */
+/** A fix on the map of a place in n. Time, heading (n) and its variance are in `fix` already; its
+ *  state stays. @return INSOLE_ERR_NULL */
+insole_status_t insole_foot_anchor_put(const insole_foot_anchor_t *anchor,
+                                       const insole_vec3_t *position_n_m,
+                                       const insole_sym3_t *cov_n_m2, insole_fix_t *fix);
+
+/** The same for a fix that is in n as a whole. */
 insole_status_t insole_foot_anchor_to_map(const insole_foot_anchor_t *anchor, insole_fix_t *fix);
 
 #ifdef __cplusplus

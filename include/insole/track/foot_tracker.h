@@ -44,7 +44,6 @@ typedef struct {
     insole_foot_counts_t counts;
     insole_screen_t screen;
     insole_still_bias_t still_bias;
-    insole_zero_velocity_t zero_velocity;
     insole_zupt_ekf_t zupt_ekf;
     insole_stride_counter_t strides;
 
@@ -65,6 +64,7 @@ typedef struct {
     bool has_start;
     insole_stride_t stride; /**< newest, until taken */
     bool has_stride;
+    insole_zero_velocity_t zero_velocity; /**< last: it is large */
 } insole_foot_tracker_t;
 
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */

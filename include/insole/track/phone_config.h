@@ -12,7 +12,6 @@
 #define INSOLE_TRACK_PHONE_CONFIG_H
 
 #include "insole/move/attitude.h"
-#include "insole/move/magnetic.h"
 #include "insole/sense/screen.h"
 #include "insole/sense/still_bias.h"
 #include "insole/track/phone_compass.h"
@@ -44,12 +43,16 @@ typedef struct {
     insole_screen_config_t screen;
     insole_still_bias_config_t still_bias;
     insole_attitude_config_t attitude;
-    insole_magnetic_config_t magnetic;
     insole_phone_walk_config_t walk;
     insole_phone_compass_config_t compass;
     insole_auto_start_config_t auto_start;
     insole_phone_place_config_t place;
 } insole_phone_tracker_config_t;
+
+/** The tracker's own, which it keeps; its parts keep theirs. */
+typedef struct {
+    INSOLE_PHONE_TRACKER_KEYS(INSOLE_CONFIG_MEMBER)
+} insole_phone_tracker_own_t;
 
 extern const insole_phone_tracker_config_t insole_phone_tracker_defaults;
 

@@ -94,12 +94,14 @@ typedef struct {
 } insole_phone_answer_t;
 
 /** @param config_start  of auto_start
+ *  @param circles       for its method of that name; NULL: it has none
  *  @param filter        its state has been set up, and stays where it is
  *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range or a filter that lacks
  *          one of start, step, fix, answer */
 insole_status_t insole_phone_place_init(insole_phone_place_t *place,
                                         const insole_phone_place_config_t *config,
                                         const insole_auto_start_config_t *config_start,
+                                        const insole_auto_start_circles_t *circles,
                                         const insole_step_filter_t *filter, bool has_radio);
 
 /** A start that holds from its time on, in place of an earlier one.

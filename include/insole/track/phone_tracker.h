@@ -14,8 +14,9 @@
  *      static insole_phone_tracker_t phone;
  *      insole_step_fusion_init(&fusion, &insole_step_fusion_defaults);
  *      insole_kde_fix_init(&kde, &insole_kde_fix_defaults);
- *      insole_phone_parts_t parts = {insole_attitude_ekf, {&insole_kde_fix_calls, &kde},
- *                                    {&insole_step_ekf_calls, &fusion}, {NULL}};
+ *      insole_phone_parts_t parts = {.attitude = insole_attitude_ekf,
+ *                                    .solver = {&insole_kde_fix_calls, &kde},
+ *                                    .filter = {&insole_step_ekf_calls, &fusion}};
  *      insole_phone_tracker_init(&phone, &insole_phone_tracker_defaults, &parts, &map);
  *      on each sample:   insole_phone_tracker_imu(&phone, &imu);
  *                        while (insole_phone_tracker_next(&phone, &fix) == INSOLE_OK) use(&fix);
@@ -28,7 +29,7 @@
  *  Start: the one that was told; without it, where the fixes by radio place the walk, and its
  *  direction by the compass or by the fixes (auto_start.h). Until then the state is `search`.
  *
- *  A phone that is not held in front of its walker needs the parts of `gait` (phone_walk.h).
+ *  A phone that is not held in front of its walker needs a guide (phone_gait.h).
  *
  *  The first steps of a walk are held back until there is a rhythm; the position shows them before.
  *
@@ -37,6 +38,7 @@
 #ifndef INSOLE_TRACK_PHONE_TRACKER_H
 #define INSOLE_TRACK_PHONE_TRACKER_H
 
+#include "insole/move/magnetic.h"
 #include "insole/track/phone_config.h"
 #include "insole/track/phone_radio.h"
 
@@ -49,7 +51,9 @@ typedef struct {
     insole_attitude_method_t *attitude; /**< NULL: the gyro alone */
     insole_radio_solver_t solver;
     insole_step_filter_t filter;
-    insole_phone_gait_t gait; /**< all NULL: a step goes where the phone points */
+    insole_phone_guide_t guide;      /**< NULL: a step goes where the phone points */
+    insole_magnetic_part_t magnetic; /**< push NULL: the field does not correct the attitude */
+    const insole_auto_start_circles_t *circles; /**< NULL: no start by that method */
 } insole_phone_parts_t;
 
 typedef struct {
@@ -61,15 +65,14 @@ typedef struct {
 } insole_phone_counts_t;
 
 typedef struct {
-    insole_phone_tracker_config_t config;
+    insole_phone_tracker_own_t config;
     insole_phone_counts_t counts;
     insole_phone_parts_t parts;
 
     insole_screen_t screen;
     insole_still_bias_t still_bias;
     insole_attitude_t attitude;
-    insole_magnetic_t magnetic; /**< a second direction for it, if its settings switch it on */
-    insole_phone_walk_t walk;   /**< its `way` holds the last steps, n */
+    insole_phone_walk_t walk; /**< its `way` holds the last steps, n */
     insole_phone_compass_t compass;
     insole_phone_radio_t radio;
     insole_phone_place_t place; /**< unless there is no filter */

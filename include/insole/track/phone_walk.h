@@ -3,17 +3,11 @@
  *  Source  [PhoneEKF] 3.1; [PhoneUKF] 5.3, 6.2.
  *  Frames  b: phone.  n: level, that of the attitude.
  *
- *  In the hand a step goes where the phone points (heading.h). In any other position the gait tells
- *  where (walk_heading.h), step by step, or, the default, as a mean: the angle between where the
- *  phone points and where the gait goes stays the same while the phone is carried in the same way,
- *  so its mean over the last steps is far better than each, and turns are those of the phone. When
- *  the position changes, or the phone is tipped over, the mean begins anew. Step by step, the
- *  direction of one whose end is not certain counts as unknown: it may be the opposite one. Which
- *  position it is, carry.h tells, if it is there and the setting `faces` asks it; until it knows,
- *  the phone points ahead. Lengths of steps and what is taken for one follow the position then,
- *  too.
+ *  In the hand a step goes where the phone points (heading.h). In any other position a guide tells
+ *  where: the gait (phone_gait.h). Lengths of steps and what is taken for one follow the position
+ *  then, too. Without a guide the phone points ahead.
  *
- *      insole_phone_walk_init(&walk, &insole_phone_walk_defaults, &gait);
+ *      insole_phone_walk_init(&walk, &insole_phone_walk_defaults, &guide);
  *      on each sample, after the attitude:
  *          insole_phone_walk_push(&walk, &attitude, &imu);
  *          while (insole_phone_walk_next(&walk, &footfall, &pace) == INSOLE_OK) use(&pace);
@@ -29,8 +23,6 @@
 #include "insole/fuse/step_news.h"
 #include "insole/move/attitude.h"
 #include "insole/move/step_length.h"
-#include "insole/move/walk_heading.h"
-#include "insole/sense/carry.h"
 #include "insole/sense/step.h"
 #include "insole/track/phone_way.h"
 
@@ -45,23 +37,7 @@ extern "C" {
     KEY(REAL, sigma_ahead_rad, 0.07, 0.0, 1.0, "rad",                                             \
         "1-sigma between where the phone points and where a step goes")                           \
     KEY(INT, shown_steps, 2, 1, 9, "steps",                                                       \
-        "so many peaks in a row are shown before it is sure that this is a walk; 9 = never")      \
-    KEY(CHOICE, faces, 2, 0, 2, "ahead|any|carried",                                              \
-        "the phone points ahead, or lies in any way, or as its carrying position tells")          \
-    KEY(CHOICE, gait, 0, 0, 1, "mean|step", "whose direction a step has that goes by the gait")   \
-    KEY(REAL, gait_keep, 0.93, 0.0, 0.999, "", "kept from step to step of that mean")             \
-    KEY(REAL, sigma_gait_rad, 0.1, 0.0, 3.0, "rad", "1-sigma of the best mean")                   \
-    KEY(REAL, tipped_rad, 0.9, 0.1, 3.2, "rad", "a phone tipped over by so much is carried anew") \
-    KEY(INT, ahead_position, 0, -1, 7, "",                                                        \
-        "carrying position in which a phone points ahead, by its number in the table; -1 = none") \
-    KEY(REAL, length_ear, 1.08, 0.2, 5.0, "",                                                     \
-        "in position 1, the ear, steps are so many times as long as step_length has them")        \
-    KEY(REAL, length_swing, 1.17, 0.2, 5.0, "", "in position 2, a hand that swings")              \
-    KEY(REAL, length_pocket, 1.07, 0.2, 5.0, "", "in position 3, a pocket")                       \
-    KEY(REAL, rise_ear, 1.0, 0.0, 3.0, "", "times step.rise_share, in position 1")                \
-    KEY(REAL, rise_swing, 0.45, 0.0, 3.0, "",                                                     \
-        "in position 2: an arm that swings unevenly makes every other peak a low one")            \
-    KEY(REAL, rise_pocket, 1.0, 0.0, 3.0, "", "in position 3")
+        "so many peaks in a row are shown before it is sure that this is a walk; 9 = never")
 /* clang-format on */
 
 typedef struct {
@@ -72,42 +48,63 @@ typedef struct {
 
 extern const insole_phone_walk_config_t insole_phone_walk_defaults;
 
-/** What tells where a step goes that a phone does not point; states set up by the caller. */
-typedef struct {
-    insole_walk_heading_t *heading;      /**< NULL: a step always goes where the phone points */
-    insole_carry_t *carry;               /**< NULL: it never does */
-    const insole_carry_forest_t *forest; /**< NULL: as without carry */
-} insole_phone_gait_t;
+/** No position: no one knows it. */
+enum { INSOLE_PHONE_NO_POSITION = -1 };
 
-/** The angle from where the phone points to where its walker goes. */
+/** How the phone lies on its walker, as far as somebody knows. */
 typedef struct {
-    insole_turn_t sum; /**< weighted by what each step knew of it; 0, 0: nothing is known */
-    insole_vec3_t up;  /**< b, of unit length: as the phone lay while it was learned */
-} insole_phone_askew_t;
+    bool is_askew;              /**< steps go by what is here; else where the phone points */
+    bool is_known;              /**< there is a direction, if so */
+    insole_real_t askew_rad;    /**< from where the phone points to where its walker goes */
+    insole_turn_t askew;        /**< that angle */
+    insole_real_t var_rad2;     /**< of it */
+    int32_t position;           /**< or INSOLE_PHONE_NO_POSITION */
+    insole_real_t length, rise; /**< times that of a phone in the hand, of a step */
+} insole_phone_lie_t;
+
+typedef struct insole_phone_walk insole_phone_walk_t;
+
+/** What a walk asks of whatever tells where a step goes that a phone does not point. All may change
+ *  `walk->lie`, and nothing else of it. */
+typedef struct {
+    void (*begin)(void *state, insole_phone_walk_t *walk);
+    /** A sample; `walk->t_us` is that of the sample before. */
+    void (*push)(void *state, insole_phone_walk_t *walk, const insole_attitude_t *attitude,
+                 const insole_imu_t *imu);
+    /** A step that is told. @return true: it has set the direction of `pace` itself */
+    bool (*step)(void *state, insole_phone_walk_t *walk, const insole_footfall_t *footfall,
+                 insole_pace_t *pace);
+    /** @return false when there was nothing to do */
+    bool (*work)(void *state, insole_phone_walk_t *walk);
+} insole_phone_guide_calls_t;
 
 typedef struct {
+    const insole_phone_guide_calls_t *calls; /**< NULL: a step goes where the phone points */
+    void *state;                             /**< stays where it is */
+} insole_phone_guide_t;
+
+struct insole_phone_walk {
     insole_phone_walk_config_t config;
-    insole_phone_gait_t gait;
+    insole_phone_guide_t guide;
     insole_step_counter_t steps;
     insole_phone_way_t way; /**< the last steps, n */
     insole_turn_t ahead;    /**< n, where the phone points */
     insole_real_t yaw_rad2; /**< variance of that */
-    insole_vec3_t up;       /**< b, of unit length, smoothed */
-    insole_phone_askew_t askew;
+    insole_phone_lie_t lie;
     uint64_t t_us;
     insole_spot_t shown;   /**< n, way of the steps that are shown and not yet told */
     uint64_t shown_end_us; /**< end of the newest of them, and how many they are */
     uint32_t shown_count;
-} insole_phone_walk_t;
+};
 
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
 insole_status_t insole_phone_walk_check(const insole_phone_walk_config_t *config);
 
-/** @param gait  NULL: a step goes where the phone points
- *  @return as insole_phone_walk_check(); INSOLE_ERR_DATA for a forest that is none */
+/** @param guide  its state must have been set up; NULL: a step goes where the phone points
+ *  @return as insole_phone_walk_check() */
 insole_status_t insole_phone_walk_init(insole_phone_walk_t *walk,
                                        const insole_phone_walk_config_t *config,
-                                       const insole_phone_gait_t *gait);
+                                       const insole_phone_guide_t *guide);
 
 /** A sample, after `attitude` has taken it.
  *  @return INSOLE_ERR_NULL; else as insole_step_push() */
@@ -119,14 +116,11 @@ insole_status_t insole_phone_walk_push(insole_phone_walk_t *walk, const insole_a
 insole_status_t insole_phone_walk_next(insole_phone_walk_t *walk, insole_footfall_t *footfall,
                                        insole_pace_t *pace);
 
-/** The position of the phone is looked for, once a second. @return true when it was */
+/** What the guide has to do between samples. @return true when it had */
 bool insole_phone_walk_work(insole_phone_walk_t *walk);
 
-/** The carrying position as the forest numbers it; INSOLE_CARRY_NONE where nothing tells it. */
-int32_t insole_phone_walk_position(const insole_phone_walk_t *walk);
-
-/** Whether the way that is shown has a direction: by the gait it has none before the first step is
- *  told. */
+/** Whether the way that is shown has a direction: by a guide it has none before the first step
+ *  is told. */
 bool insole_phone_walk_is_directed(const insole_phone_walk_t *walk);
 
 /** Where the walker goes, as far as a phone can tell while no step is made, n. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The path of a phone in the hand: attitude, steps, fixes by fingerprints, the filter of the two. */
+ * The path of a phone in the hand: attitude, steps, fixes by fingerprints, the filter of the two.
+ */
 #include <insole/fuse/step_ekf.h>
 #include <insole/move/attitude_ekf.h>
 #include <insole/place/kde_fix.h>
@@ -17,10 +18,9 @@ static insole_phone_tracker_t phone;
 
 int main(void)
 {
-    static const insole_phone_parts_t parts = {insole_attitude_ekf,
-                                               {&insole_kde_fix_calls, &kde},
-                                               {&insole_step_ekf_calls, &fusion},
-                                               {NULL, NULL, NULL}};
+    static const insole_phone_parts_t parts = {.attitude = insole_attitude_ekf,
+                                               .solver = {&insole_kde_fix_calls, &kde},
+                                               .filter = {&insole_step_ekf_calls, &fusion}};
     insole_fix_t fix;
     (void)insole_step_fusion_init(&fusion, &insole_step_fusion_defaults);
     (void)insole_kde_fix_init(&kde, &insole_kde_fix_defaults);

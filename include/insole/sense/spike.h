@@ -1,0 +1,28 @@
+/** @file spike.h  A single sample far away from both of its neighbours, which lie close together.
+ *
+ *  Frames  b: sensor, any mounting; each axis by itself.
+ *
+ *      if (insole_spike_mend(before, &middle, after, limit)) count++;
+ *
+ *  SPDX-License-Identifier: MIT
+ */
+#ifndef INSOLE_SENSE_SPIKE_H
+#define INSOLE_SENSE_SPIKE_H
+
+#include "insole/base/vec3.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Axes of `middle` that are a spike get the mean of their neighbours.
+ *  @param limit  smallest distance of a spike from both neighbours
+ *  @return true when there was one; false for NULL */
+bool insole_spike_mend(insole_vec3_t before, insole_vec3_t *middle, insole_vec3_t after,
+                       insole_real_t limit);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
