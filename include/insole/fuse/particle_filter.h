@@ -70,12 +70,12 @@ typedef struct {
     insole_particle_counts_t counts;
     insole_cloud_fix_t fix; /**< the last one that was reached */
     bool has_fix;
+    bool has_bias; /**< particles of the cloud that was started have biases */
 
     insole_rng_t rng;
-    uint32_t count;             /**< particles of the cloud that was started; 0: none */
-    bool has_bias;              /**< its particles have biases */
-    uint32_t since_start;       /**< strides since */
-    insole_weighing_t weighing; /**< what is being worked in */
+    uint32_t count;                                 /**< of those particles; 0: none */
+    uint32_t since_start;                           /**< strides since */
+    insole_weighing_t weighing;                     /**< what is being worked in */
     const insole_step_weighing_calls_t *step_calls; /**< NULL: nothing of a phone is told */
     insole_step_weighing_t steps;
 
