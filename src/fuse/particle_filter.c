@@ -56,9 +56,9 @@ static void begin_drawing(insole_particle_filter_t *filter, const insole_cloud_s
     begin_phase(filter, INSOLE_PARTICLES_DRAW);
 }
 
-insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
-                                             const insole_cloud_t *cloud,
-                                             const insole_particle_start_t *start)
+INSOLE_COLD insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
+                                                         const insole_cloud_t *cloud,
+                                                         const insole_particle_start_t *start)
 {
     insole_status_t status = insole_particle_start_check(start);
     if (!filter || status != INSOLE_OK) {
@@ -68,10 +68,10 @@ insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
     return insole_particle_filter_start_from(filter, cloud, &source, NULL);
 }
 
-insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filter,
-                                                  const insole_cloud_t *cloud,
-                                                  const insole_cloud_source_t *source,
-                                                  const insole_spot_fix_t *fix)
+INSOLE_COLD insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filter,
+                                                              const insole_cloud_t *cloud,
+                                                              const insole_cloud_source_t *source,
+                                                              const insole_spot_fix_t *fix)
 {
     insole_status_t status = source ? insole_cloud_check(cloud) : INSOLE_ERR_NULL;
     if (filter && status == INSOLE_OK) {
@@ -103,9 +103,9 @@ static bool is_idle(const insole_particle_filter_t *filter)
     return filter && filter->count > 0 && filter->phase == INSOLE_PARTICLES_IDLE;
 }
 
-insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
-                                             const insole_building_t *building,
-                                             const insole_evidence_t *news)
+INSOLE_COLD insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
+                                                         const insole_building_t *building,
+                                                         const insole_evidence_t *news)
 {
     insole_status_t status = insole_evidence_check(news);
     status = status == INSOLE_OK && !is_idle(filter) ? INSOLE_ERR_STATE : status;
@@ -142,7 +142,7 @@ static void begin_sum(insole_particle_filter_t *filter, const insole_cloud_t *cl
 }
 
 /* Draws about the same place, wider each time in a row. */
-static void draw_wider(insole_particle_filter_t *filter, insole_cloud_source_t source)
+INSOLE_COLD static void draw_wider(insole_particle_filter_t *filter, insole_cloud_source_t source)
 {
     insole_real_t wider = (insole_real_t)(1u << filter->deaths);
     insole_cloud_source_widen(&source, wider * filter->config.recover_sigma_m,
@@ -152,7 +152,7 @@ static void draw_wider(insole_particle_filter_t *filter, insole_cloud_source_t s
     begin_drawing(filter, &source);
 }
 
-static void end_weighing(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+INSOLE_COLD static void end_weighing(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
 {
     if (!insole_weighing_has_survivors(&filter->weighing)) {
         filter->counts.recovered++;
@@ -193,7 +193,7 @@ static void begin_finish(insole_particle_filter_t *filter, const insole_cloud_t 
     filter->phase = INSOLE_PARTICLES_FINISH;
 }
 
-static void end_sum(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+INSOLE_COLD static void end_sum(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
 {
     const insole_particle_filter_config_t *config = &filter->config;
     insole_cloud_fix(&filter->sum, &filter->fix);
@@ -265,7 +265,7 @@ static void move(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
 }
 
 /* Where nothing walkable is even far around, going on without the plan is better than an end. */
-static void end_drawing(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+INSOLE_COLD static void end_drawing(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
 {
     if (insole_weighing_has_survivors(&filter->weighing)) {
         begin_sum(filter, cloud);
