@@ -1,6 +1,89 @@
 /* SPDX-License-Identifier: MIT */
 #include "insole/move/zupt_cov.h"
 
+insole_zupt_error_t insole_zupt_cov_of_velocity(const insole_zupt_cov_t *P, insole_vec3_t w)
+{
+    insole_zupt_error_t x = {insole_mat3_mul_vec(P->pv, w), insole_sym3_mul_vec(P->vv, w),
+                             insole_mat3_mul_vec_t(P->va, w), insole_vec3_zero()};
+#if INSOLE_ZUPT_STATES == 12
+    x.b = insole_mat3_mul_vec_t(P->vb, w);
+#endif
+    return x;
+}
+
+INSOLE_COLD void insole_zupt_cov_forget_motion(insole_zupt_cov_t *P)
+{
+    P->vv = insole_sym3_zero();
+    P->pv = P->pa = P->va = insole_mat3_zero();
+#if INSOLE_ZUPT_STATES == 12
+    P->pb = P->vb = P->ab = insole_mat3_zero();
+#endif
+}
+
+INSOLE_COLD void insole_zupt_cov_forget_place(insole_zupt_cov_t *P)
+{
+    P->pp = insole_sym3_zero();
+    P->pv = P->pa = insole_mat3_zero();
+#if INSOLE_ZUPT_STATES == 12
+    P->pb = insole_mat3_zero();
+#endif
+}
+
+INSOLE_COLD void insole_zupt_cov_forget_yaw(insole_zupt_cov_t *P)
+{
+    P->aa.xz = P->aa.yz = P->aa.zz = INSOLE_R(0.0);
+    P->va.r0.z = P->va.r1.z = P->va.r2.z = INSOLE_R(0.0);
+    P->pa.r0.z = P->pa.r1.z = P->pa.r2.z = INSOLE_R(0.0);
+#if INSOLE_ZUPT_STATES == 12
+    P->ab.r2 = insole_vec3_zero();
+#endif
+}
+
+INSOLE_COLD insole_zupt_error_t insole_zupt_cov_of_height(const insole_zupt_cov_t *P)
+{
+    insole_zupt_error_t x = {insole_vec3(P->pp.xz, P->pp.yz, P->pp.zz), P->pv.r2, P->pa.r2,
+                             insole_vec3_zero()};
+#if INSOLE_ZUPT_STATES == 12
+    x.b = P->pb.r2;
+#endif
+    return x;
+}
+
+static void subtract_outer(insole_zupt_cov_t *P, const insole_zupt_error_t *k, insole_real_t per_s)
+{
+    P->pp = insole_sym3_add_outer(P->pp, -per_s, k->p);
+    P->vv = insole_sym3_add_outer(P->vv, -per_s, k->v);
+    P->aa = insole_sym3_add_outer(P->aa, -per_s, k->a);
+    P->pv = insole_mat3_add_outer(P->pv, -per_s, k->p, k->v);
+    P->pa = insole_mat3_add_outer(P->pa, -per_s, k->p, k->a);
+    P->va = insole_mat3_add_outer(P->va, -per_s, k->v, k->a);
+#if INSOLE_ZUPT_STATES == 12
+    P->bb = insole_sym3_add_outer(P->bb, -per_s, k->b);
+    P->pb = insole_mat3_add_outer(P->pb, -per_s, k->p, k->b);
+    P->vb = insole_mat3_add_outer(P->vb, -per_s, k->v, k->b);
+    P->ab = insole_mat3_add_outer(P->ab, -per_s, k->a, k->b);
+#endif
+}
+
+/* The row of the height becomes r times the gain, again without a difference. */
+INSOLE_COLD void insole_zupt_cov_correct_height(insole_zupt_cov_t *P, insole_real_t r)
+{
+    insole_zupt_error_t column = insole_zupt_cov_of_height(P);
+    insole_real_t per_s = INSOLE_R(1.0) / (P->pp.zz + r);
+    subtract_outer(P, &column, per_s);
+    insole_zupt_error_t row = insole_zupt_error_scale(column, r * per_s);
+    P->pp.xz = row.p.x;
+    P->pp.yz = row.p.y;
+    P->pp.zz = row.p.z;
+    P->pv.r2 = row.v;
+    P->pa.r2 = row.a;
+#if INSOLE_ZUPT_STATES == 12
+    P->pb.r2 = row.b;
+#endif
+}
+
+#if INSOLE_ZUPT_STATES == 12
+
 /* v = v - U a is done: vb is half way, and the gain of the velocity is that of b alone. */
 static void gain_rows(insole_zupt_cov_t *P, const insole_mat3_t *G, const insole_mat3_t *vb)
 {
@@ -42,49 +125,6 @@ INSOLE_FLAT insole_vec3_t insole_zupt_cov_correct_bias(insole_zupt_cov_t *P, con
     return insole_mat3_mul_vec(K_b, z);
 }
 
-insole_zupt_error_t insole_zupt_cov_of_velocity(const insole_zupt_cov_t *P, insole_vec3_t w)
-{
-    insole_zupt_error_t x = {insole_mat3_mul_vec(P->pv, w), insole_sym3_mul_vec(P->vv, w),
-                             insole_mat3_mul_vec_t(P->va, w), insole_mat3_mul_vec_t(P->vb, w)};
-    return x;
-}
-
-INSOLE_COLD insole_zupt_error_t insole_zupt_cov_of_height(const insole_zupt_cov_t *P)
-{
-    insole_zupt_error_t x = {insole_vec3(P->pp.xz, P->pp.yz, P->pp.zz), P->pv.r2, P->pa.r2,
-                             P->pb.r2};
-    return x;
-}
-
-static void subtract_outer(insole_zupt_cov_t *P, const insole_zupt_error_t *k, insole_real_t per_s)
-{
-    P->pp = insole_sym3_add_outer(P->pp, -per_s, k->p);
-    P->vv = insole_sym3_add_outer(P->vv, -per_s, k->v);
-    P->aa = insole_sym3_add_outer(P->aa, -per_s, k->a);
-    P->bb = insole_sym3_add_outer(P->bb, -per_s, k->b);
-    P->pv = insole_mat3_add_outer(P->pv, -per_s, k->p, k->v);
-    P->pa = insole_mat3_add_outer(P->pa, -per_s, k->p, k->a);
-    P->pb = insole_mat3_add_outer(P->pb, -per_s, k->p, k->b);
-    P->va = insole_mat3_add_outer(P->va, -per_s, k->v, k->a);
-    P->vb = insole_mat3_add_outer(P->vb, -per_s, k->v, k->b);
-    P->ab = insole_mat3_add_outer(P->ab, -per_s, k->a, k->b);
-}
-
-/* The row of the height becomes r times the gain, again without a difference. */
-INSOLE_COLD void insole_zupt_cov_correct_height(insole_zupt_cov_t *P, insole_real_t r)
-{
-    insole_zupt_error_t column = insole_zupt_cov_of_height(P);
-    insole_real_t per_s = INSOLE_R(1.0) / (P->pp.zz + r);
-    subtract_outer(P, &column, per_s);
-    insole_zupt_error_t row = insole_zupt_error_scale(column, r * per_s);
-    P->pp.xz = row.p.x;
-    P->pp.yz = row.p.y;
-    P->pp.zz = row.p.z;
-    P->pv.r2 = row.v;
-    P->pa.r2 = row.a;
-    P->pb.r2 = row.b;
-}
-
 insole_zupt_error_t insole_zupt_cov_mul(const insole_zupt_cov_t *P, const insole_zupt_error_t *x)
 {
     insole_zupt_error_t y = insole_zupt_cov_of_velocity(P, x->v);
@@ -102,3 +142,5 @@ insole_zupt_error_t insole_zupt_cov_mul(const insole_zupt_cov_t *P, const insole
     y.b = insole_vec3_add(y.b, insole_sym3_mul_vec(P->bb, x->b));
     return y;
 }
+
+#endif

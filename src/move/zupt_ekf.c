@@ -32,7 +32,25 @@ INSOLE_COLD static insole_status_t refuse(insole_zupt_ekf_t *ekf, insole_status_
 
 static bool has_bias(const insole_zupt_ekf_t *ekf)
 {
-    return ekf->config.sigma_accel_bias_mps2 > ZERO;
+    return INSOLE_ZUPT_STATES == 12 && ekf->config.sigma_accel_bias_mps2 > ZERO;
+}
+
+static void add_bias_var(insole_zupt_cov_t *P, insole_real_t var)
+{
+#if INSOLE_ZUPT_STATES == 12
+    P->bb = insole_sym3_add_diagonal(P->bb, var);
+#else
+    (void)P, (void)var;
+#endif
+}
+
+static void shift_bias(insole_zupt_ekf_t *ekf, insole_vec3_t shift_mps2)
+{
+#if INSOLE_ZUPT_STATES == 12
+    ekf->accel_bias_mps2 = insole_vec3_add(ekf->accel_bias_mps2, shift_mps2);
+#else
+    (void)ekf, (void)shift_mps2;
+#endif
 }
 
 static bool is_within(insole_vec3_t v, insole_real_t limit)
@@ -69,15 +87,8 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf,
     ekf->gravity_mps2 = config->gravity_mps2;
     ekf->q = insole_quat_identity();
     ekf->C = insole_quat_to_mat3(ekf->q);
-    ekf->P.bb = insole_sym3_add_diagonal(ekf->P.bb, insole_square(config->sigma_accel_bias_mps2));
+    add_bias_var(&ekf->P, insole_square(config->sigma_accel_bias_mps2));
     return INSOLE_OK;
-}
-
-INSOLE_COLD static void forget_motion(insole_zupt_cov_t *P)
-{
-    P->vv = insole_sym3_zero();
-    P->pv = P->pa = P->va = insole_mat3_zero();
-    P->pb = P->vb = P->ab = insole_mat3_zero();
 }
 
 INSOLE_COLD insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf,
@@ -103,7 +114,7 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf,
     ekf->last_accel_mps2 = mean_accel_mps2;
     ekf->last_gyro_radps = insole_vec3_zero();
     insole_real_t tilt_var = insole_square(sigma_tilt_rad);
-    forget_motion(&ekf->P);
+    insole_zupt_cov_forget_motion(&ekf->P);
     ekf->P.aa = insole_sym3_diagonal(tilt_var, tilt_var, ekf->P.aa.zz);
     begin_trace(ekf, INSOLE_ZUPT_STEP_ALIGN);
     ekf->aligned = true;
@@ -193,8 +204,7 @@ static void add_noise(insole_zupt_ekf_t *ekf)
     ekf->P.vv = insole_sym3_add_diagonal(ekf->P.vv, velocity);
     ekf->P.aa = insole_sym3_add_diagonal(insole_sym3_add(ekf->P.aa, noise->clip_rad2), attitude);
     if (has_bias(ekf)) {
-        insole_real_t bias = insole_square(c->accel_bias_walk_mps2_rts) * noise->time_s;
-        ekf->P.bb = insole_sym3_add_diagonal(ekf->P.bb, bias);
+        add_bias_var(&ekf->P, insole_square(c->accel_bias_walk_mps2_rts) * noise->time_s);
     }
     noise->time_s = noise->turned_rad2ps = ZERO;
     noise->clip_rad2 = insole_sym3_zero();
@@ -231,7 +241,7 @@ INSOLE_FLAT insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, cons
     ekf->dt_s = dt;
     ekf->t_us = imu->t_us;
     gather_noise(ekf, turn2, dt);
-    insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, ekf->accel_bias_mps2);
+    insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, insole_zupt_ekf_accel_bias(ekf));
     insole_vec3_t u = mechanise(ekf, accel, imu->gyro_radps, dt);
     begin_trace(ekf, INSOLE_ZUPT_STEP_PREDICT);
     if (clipped != 0u) {
@@ -248,7 +258,7 @@ INSOLE_FLAT insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, cons
 static void inject(insole_zupt_ekf_t *ekf, const insole_zupt_error_t *dx, bool biased)
 {
     if (biased) {
-        ekf->accel_bias_mps2 = insole_vec3_add(ekf->accel_bias_mps2, dx->b);
+        shift_bias(ekf, dx->b);
     }
     ekf->p_m = insole_vec3_add(ekf->p_m, dx->p); /* [TwoOrder (29)] */
     ekf->v_mps = insole_vec3_add(ekf->v_mps, dx->v);
@@ -339,7 +349,7 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf,
     insole_zupt_cov_t *P = &ekf->P;
     insole_real_t dt = insole_seconds(ekf->t_us, t_us);
     if (ekf->trace.step != INSOLE_ZUPT_STEP_COAST) {
-        forget_motion(P);
+        insole_zupt_cov_forget_motion(P);
         P->vv = insole_sym3_add_diagonal(P->vv, insole_square(sigma_mps));
     }
     ekf->p_m = insole_vec3_add_scaled(ekf->p_m, dt, velocity_mps);

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#if INSOLE_ZUPT_STATES == 12
+
 #define ZERO INSOLE_R(0.0)
 
 /* What the samples after a node tell about its error, and how surely. */
@@ -154,15 +156,11 @@ static void forget_known(const insole_zupt_node_t *node, adjoint_t *adjoint)
     const insole_zupt_cov_t *P = &node->P;
     if (P->pp.xx == ZERO && P->pp.yy == ZERO && P->pp.zz == ZERO) {
         x->p = insole_vec3_zero();
-        L->pp = insole_sym3_zero();
-        L->pv = L->pa = L->pb = insole_mat3_zero();
+        insole_zupt_cov_forget_place(L);
     }
     if (P->aa.zz == ZERO) {
         x->a.z = ZERO;
-        L->aa.xz = L->aa.yz = L->aa.zz = ZERO;
-        L->va.r0.z = L->va.r1.z = L->va.r2.z = ZERO;
-        L->pa.r0.z = L->pa.r1.z = L->pa.r2.z = ZERO;
-        L->ab.r2 = insole_vec3_zero();
+        insole_zupt_cov_forget_yaw(L);
     }
 }
 
@@ -285,3 +283,5 @@ insole_status_t insole_zupt_smooth_take(insole_zupt_smooth_t *smooth,
     insole_ring_pop(&smooth->ring);
     return INSOLE_OK;
 }
+
+#endif

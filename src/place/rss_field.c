@@ -106,12 +106,9 @@ INSOLE_COLD insole_status_t insole_rss_field_hear(insole_rss_field_t *field,
         return INSOLE_ERR_STATE;
     }
     keep_strongest(field, building, readings, count);
-    uint32_t slot[INSOLE_RSS_FIELD_HEARD];
     insole_wall_losses_limit(&field->losses, building->propagation->walls_max_db);
-    insole_wall_losses_reserve(&field->losses, field->heard_id, field->heard_count, slot);
-    for (uint32_t k = 0; k < field->heard_count; k++) {
-        field->heard_slot[k] = (uint8_t)slot[k];
-    }
+    insole_wall_losses_reserve(&field->losses, field->heard_id, field->heard_count,
+                               field->heard_slot);
     const insole_rss_fix_config_t *config =
         building->rss_fix ? building->rss_fix : &insole_rss_fix_defaults;
     field->points_elsewhere =

@@ -175,7 +175,7 @@ static uint32_t slot_for(insole_wall_losses_t *losses, uint32_t id, const uint32
 
 INSOLE_COLD insole_status_t insole_wall_losses_reserve(insole_wall_losses_t *losses,
                                                        const uint32_t *ids, uint32_t count,
-                                                       uint32_t *slots)
+                                                       uint8_t *slots)
 {
     if (!losses || (count > 0 && (!ids || !slots))) {
         return INSOLE_ERR_NULL;
@@ -184,7 +184,7 @@ INSOLE_COLD insole_status_t insole_wall_losses_reserve(insole_wall_losses_t *los
         return INSOLE_ERR_ROOM;
     }
     for (uint32_t k = 0; k < count; k++) {
-        slots[k] = slot_for(losses, ids[k], ids, count);
+        slots[k] = (uint8_t)slot_for(losses, ids[k], ids, count);
     }
     return INSOLE_OK;
 }

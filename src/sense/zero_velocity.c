@@ -368,14 +368,8 @@ static bool is_released(insole_zero_velocity_t *zv, uint32_t number)
             insole_ring_is_full(&zv->ring));
 }
 
-insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out)
+INSOLE_APART static insole_status_t release(insole_zero_velocity_t *zv, insole_labelled_t *out)
 {
-    if (!zv || !out) {
-        return INSOLE_ERR_NULL;
-    }
-    if (!is_released(zv, zv->ring.begin)) {
-        return INSOLE_ERR_STATE;
-    }
     const insole_stance_slot_t *s = slot(zv, zv->ring.begin++);
     uint32_t newest_high = (uint32_t)(zv->newest_us >> 32);
     uint32_t high_us = newest_high - (uint16_t)(newest_high - s->high_us);
@@ -387,4 +381,12 @@ insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_lab
     out->still = (s->label & LABEL_STILL) != 0u;
     out->plain = (s->label & LABEL_PLAIN) != 0u;
     return INSOLE_OK;
+}
+
+insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out)
+{
+    if (!zv || !out) {
+        return INSOLE_ERR_NULL;
+    }
+    return is_released(zv, zv->ring.begin) ? release(zv, out) : INSOLE_ERR_STATE;
 }

@@ -124,13 +124,10 @@ INSOLE_COLD static void align_first(insole_foot_tracker_t *t, const insole_label
 
 /* ---- motion ----------------------------------------------------------------------------- */
 
-/* Where the errors of position are counted from; without the rest of its row nothing that is
- * learned later speaks of the way before. */
+/* Where the errors of position are counted from. */
 INSOLE_COLD static void forget_place(insole_foot_tracker_t *t)
 {
-    insole_zupt_cov_t *P = &t->zupt_ekf.P;
-    P->pp = insole_sym3_zero();
-    P->pv = P->pa = P->pb = insole_mat3_zero();
+    insole_zupt_cov_forget_place(&t->zupt_ekf.P);
     t->walk.place_m2 = ZERO;
 }
 
@@ -215,15 +212,6 @@ static void make_fix(const insole_foot_tracker_t *t, insole_fix_t *fix, uint64_t
     fix->state = fix_state(t, fix);
 }
 
-/* Yaw is known from now on: nothing that is learned later speaks of its error before. */
-static void forget_yaw(insole_zupt_cov_t *P)
-{
-    P->aa.xz = P->aa.yz = P->aa.zz = ZERO;
-    P->va.r0.z = P->va.r1.z = P->va.r2.z = ZERO;
-    P->pa.r0.z = P->pa.r1.z = P->pa.r2.z = ZERO;
-    P->ab.r2 = insole_vec3_zero();
-}
-
 INSOLE_APART static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
 {
     if (t_us < t->start.t_us) {
@@ -232,7 +220,7 @@ INSOLE_APART static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
     (void)insole_foot_anchor_start(&t->anchor, &t->start, *position_n(t), t_us);
     forget_place(t);
     if (t->start.has_heading) {
-        forget_yaw(&t->zupt_ekf.P);
+        insole_zupt_cov_forget_yaw(&t->zupt_ekf.P);
     }
     t->has_start = false;
 }
@@ -243,7 +231,7 @@ INSOLE_APART static void reach_start(insole_foot_tracker_t *t, uint64_t t_us)
 static void bridge(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
     insole_zupt_ekf_t *ekf = &t->zupt_ekf;
-    insole_vec3_t accel = insole_vec3_add(ekf->last_accel_mps2, ekf->accel_bias_mps2);
+    insole_vec3_t accel = insole_vec3_add(ekf->last_accel_mps2, insole_zupt_ekf_accel_bias(ekf));
     insole_vec3_t gyro = insole_vec3_add(ekf->last_gyro_radps, t->still_bias.gyro_bias_radps);
     s->imu.accel_mps2 = insole_vec3_middle(accel, s->imu.accel_mps2);
     s->imu.gyro_radps = insole_vec3_middle(gyro, s->imu.gyro_radps);

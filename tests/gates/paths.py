@@ -18,22 +18,29 @@ HERE = Path(__file__).parent
 BEGIN, END = "<!-- paths:begin -->", "<!-- paths:end -->"
 TITLES = {
     "inertial": "inertial filter alone",
+    "inertial_nine": "inertial filter alone, compiled for nine states",
     "foot": "shoe: detector, inertial filter, plan, radio, 500 particles",
     "phone": "phone: attitude, steps, fingerprints of up to 96 access points a scan, `ekf`",
 }
 FLAGS = [*sizes.CPU, "-std=c99", "-O2", "-ffp-contract=off", "-ffunction-sections",
          "-fdata-sections", "-fcallgraph-info=su,da"]
 COMPILER = "12.2.1"  # that the table in README.md is made with
-# A phone hears fewer access points than there is room for unless told: 96 in a scan.
-SMALLER = {"phone": (["-DINSOLE_HEARD_MAX=96"], ["heard", "map_search", "kde_fix"])}
+# What a firmware sets smaller: a phone hears 96 access points in a scan, a filter has nine states.
+# (program, options, stems that are compiled anew)
+SMALLER = {
+    "phone": ("phone", ["-DINSOLE_HEARD_MAX=96"], ["place/heard", "place/map_search",
+                                                   "place/kde_fix"]),
+    "inertial_nine": ("inertial", ["-DINSOLE_ZUPT_STATES=9", "-fno-schedule-insns"],
+                      ["move/zupt_cov", "move/zupt_ekf"]),
+}
 OUTSIDE = ("sensor", "compass", "shown", "building", "map", "heard")  # what a board provides
 
 
 def link(root, build, name, folder):
     """The linked program, in a folder that then holds its call graph, too."""
     linked, made = folder / f"{name}.elf", []
-    smaller, stems = SMALLER.get(name, ([], []))
-    for source in [HERE / "paths" / f"{name}.c"] + [root / f"src/place/{s}.c" for s in stems]:
+    program, smaller, stems = SMALLER.get(name, (name, [], []))
+    for source in [HERE / "paths" / f"{program}.c"] + [root / f"src/{s}.c" for s in stems]:
         made.append(folder / f"{source.stem}.o")
         arm.tool("gcc", *FLAGS, "-fno-math-errno", *smaller, "-I", root / "include", "-c", source,
                  "-o", made[-1])

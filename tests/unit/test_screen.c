@@ -391,6 +391,98 @@ START_TEST(refusals)
 }
 END_TEST
 
+/* ---- most samples need no close look: none must escape that does --------------------------- */
+
+enum { JUMPY = 10000 };
+
+static double jumpy[JUMPY][6], mended[JUMPY][6];
+
+/* A slow motion; now and then one axis jumps anywhere. */
+static void make_jumpy(uint64_t seed)
+{
+    insole_rng_t rng;
+    insole_rng_seed(&rng, seed);
+    for (int i = 0; i < JUMPY; i++) {
+        for (int k = 0; k < 6; k++) {
+            jumpy[i][k] = (double)sample_between(&rng, INSOLE_R(-1.0), INSOLE_R(1.0));
+        }
+        uint32_t axis = insole_rng_bits(&rng) % 60u;
+        double most = axis < 3u ? 400.0 : 20.0;
+        insole_real_t jump = sample_between(&rng, INSOLE_R(-1.0), INSOLE_R(1.0));
+        if (axis < 6u) {
+            jumpy[i][axis] = (double)((insole_real_t)most * jump);
+        }
+    }
+}
+
+/* A single value far from both neighbours, which agree. */
+static double by_the_rule(double before, double middle, double after, double limit)
+{
+    double rise = middle - before, fall = middle - after, least = fmin(fabs(rise), fabs(fall));
+    bool spike = rise * fall > 0.0 && least > limit && fabs(after - before) < 0.25 * least;
+    return spike ? 0.5 * (before + after) : middle;
+}
+
+static void mend_all(const insole_screen_config_t *c)
+{
+    memcpy(mended, jumpy, sizeof mended);
+    for (int i = 1; i + 1 < JUMPY; i++) {
+        for (int k = 0; k < 6; k++) {
+            double limit = (double)(k < 3 ? c->spike_accel_mps2 : c->spike_gyro_radps);
+            mended[i][k] = by_the_rule(mended[i - 1][k], jumpy[i][k], jumpy[i + 1][k], limit);
+        }
+    }
+}
+
+static int marks_of(const insole_screen_config_t *c, const double *v)
+{
+    int marks = 0;
+    for (int k = 0; k < 3; k++) {
+        bool clipped = (insole_real_t)fabs(v[3 + k]) >= c->clip_share * c->gyro_range_radps;
+        marks |= clipped ? 1 << k : 0;
+    }
+    return marks;
+}
+
+static insole_vec3_t vec3_of(const double *v)
+{
+    return insole_vec3((insole_real_t)v[0], (insole_real_t)v[1], (insole_real_t)v[2]);
+}
+
+static const double RANGES_RADPS[] = {2.0, 4.0, 6.0, 8.0, 12.0};
+static const double SPIKES[][2] = {{8.0, 150.0}, {3.0, 40.0}, {15.0, 1.0e6}};
+
+START_TEST(jumps_and_clipped_samples_by_the_rule)
+{
+    insole_screen_config_t config = insole_screen_defaults;
+    config.gyro_range_radps = (insole_real_t)RANGES_RADPS[_i % 5];
+    config.spike_gyro_radps = (insole_real_t)SPIKES[_i % 3][0];
+    config.spike_accel_mps2 = (insole_real_t)SPIKES[_i % 3][1];
+    make_jumpy((uint64_t)_i + 1u);
+    mend_all(&config);
+    begin(&config);
+    for (int i = 0; i < JUMPY; i++) {
+        insole_imu_t imu = {(uint64_t)i * 5000u, vec3_of(jumpy[i]), vec3_of(jumpy[i] + 3)};
+        push(imu);
+    }
+    finish();
+    ck_assert_int_eq(clean.count, JUMPY);
+    worst_t value = {0.0, 0.0}, marks = {0.0, 0.0};
+    for (int i = 0; i < JUMPY; i++) {
+        const insole_clean_t *c = &clean.out[i];
+        insole_vec3_t accel = insole_vec3_sub(c->imu.accel_mps2, vec3_of(mended[i]));
+        insole_vec3_t gyro = insole_vec3_sub(c->imu.gyro_radps, vec3_of(mended[i] + 3));
+        worst_note(&value, (double)insole_vec3_max_abs(accel), i);
+        worst_note(&value, (double)insole_vec3_max_abs(gyro), i);
+        worst_require(&marks, c->marks == marks_of(&config, jumpy[i]), i);
+    }
+    ASSERT_WORST(value, 1e-6, "m/s2 or rad/s");
+    ASSERT_ALL_HELD(marks);
+    ck_assert_uint_gt(screen.counts.spikes, 50u);
+    ck_assert_uint_gt(screen.counts.clipped, 50u);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("screen");
@@ -406,6 +498,7 @@ Suite *insole_suite(void)
     suite_add(suite, "honest stamps", honest_stamps_stay);
     suite_add_loop(suite, "averages", fast_samples_are_averaged_and_nothing_is_lost, 4);
     suite_add_loop(suite, "nonsense", nonsense_never_gets_through, 20);
+    suite_add_loop(suite, "by the rule", jumps_and_clipped_samples_by_the_rule, 15);
     suite_add(suite, "save", saved_it_goes_on_the_same);
     suite_add(suite, "refusals", refusals);
     return suite;

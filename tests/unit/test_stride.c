@@ -341,6 +341,7 @@ START_TEST(samples_told_in_short_count_alike)
     insole_stride_t told;
     insole_rng_t rng;
     insole_rng_seed(&rng, 8u);
+    memset(&told, 0, sizeof told);
     begin(&insole_stride_defaults);
     brief = counter;
     uint32_t strides = 0u, short_ones = 0u, all = 0u;

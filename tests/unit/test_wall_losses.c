@@ -74,7 +74,7 @@ START_TEST(nodes_are_a_lattice_of_the_map)
 }
 END_TEST
 
-static void reserve(const uint32_t *ids, uint32_t count, uint32_t *slots)
+static void reserve(const uint32_t *ids, uint32_t count, uint8_t *slots)
 {
     ck_assert_int_eq(insole_wall_losses_reserve(&losses, ids, count, slots), INSOLE_OK);
     for (uint32_t k = 0; k < count; k++) {
@@ -96,7 +96,7 @@ static double direct(insole_spot_t from, insole_spot_t to)
 /* Some nodes and access points are left out, so that they are counted on a later visit. */
 static void compare_with_plan(const uint32_t *ids, uint32_t count, double limit_db, worst_t *worst)
 {
-    uint32_t slots[SLOTS];
+    uint8_t slots[SLOTS];
     reserve(ids, count, slots);
     for (uint32_t n = 0; n < NODES; n++) {
         for (uint32_t k = 0; k < count; k++) {
@@ -147,7 +147,8 @@ END_TEST
  * still has a loss was kept. */
 static uint32_t kept_after_move(double x0, double y0, double spacing_m, double x1, double y1)
 {
-    uint32_t id = 3u, slot, kept = 0;
+    uint32_t id = 3u, kept = 0;
+    uint8_t slot;
     insole_spot_t ap = spot(1000.0, 1.0);
     insole_wall_losses_init(&losses);
     reserve(&id, 1u, &slot);
@@ -183,7 +184,8 @@ END_TEST
 /* All are forgotten with another limit, none with the same. */
 START_TEST(a_limit_holds_for_all_that_is_kept)
 {
-    uint32_t id = 3u, slot;
+    uint32_t id = 3u;
+    uint8_t slot;
     begin(7u);
     draw_begin(&drawing);
     draw_wall(&drawing, 6.0, 900.0, -500.0, 900.0, 500.0);
@@ -208,7 +210,8 @@ END_TEST
 
 START_TEST(access_points_keep_their_slots)
 {
-    uint32_t ids[SLOTS], slots[SLOTS], again[SLOTS];
+    uint32_t ids[SLOTS];
+    uint8_t slots[SLOTS], again[SLOTS];
     begin(2u);
     for (uint32_t k = 0; k < SLOTS; k++) {
         ids[k] = 7u * k;
@@ -230,7 +233,8 @@ END_TEST
 /* Of sixteen kept, four are heard again with twelve others: the four keep their losses. */
 START_TEST(only_slots_of_others_are_given_up)
 {
-    uint32_t ids[SLOTS], slots[SLOTS], before[SLOTS];
+    uint32_t ids[SLOTS];
+    uint8_t slots[SLOTS], before[SLOTS];
     begin(3u);
     draw_begin(&drawing);
     draw_wall(&drawing, 6.0, 900.0, -500.0, 900.0, 500.0);
@@ -256,7 +260,8 @@ END_TEST
 
 START_TEST(the_same_access_point_twice_has_one_slot)
 {
-    uint32_t ids[] = {4u, 9u, 4u}, slots[3];
+    uint32_t ids[] = {4u, 9u, 4u};
+    uint8_t slots[3];
     begin(4u);
     reserve(ids, 3u, slots);
     ck_assert_uint_eq(slots[0], slots[2]);
@@ -286,7 +291,8 @@ START_TEST(refusals_change_nothing)
         {0.0, 1.0, 1.0},         {-1.0, 1.0, 1.0},    {0.0099, 1.0, 1.0}, {1.1e5, 1.0, 1.0},
         {(double)NAN, 1.0, 1.0}, {1.0, 1.1e5, 1.0},   {1.0, 1.0, -1.1e5}, {1.0, (double)NAN, 1.0},
         {1.0, 1.0, HUGE_VAL},    {HUGE_VAL, 1.0, 1.0}};
-    uint32_t ids[SLOTS + 1] = {0}, slots[SLOTS + 1];
+    uint32_t ids[SLOTS + 1] = {0};
+    uint8_t slots[SLOTS + 1];
     begin(6u);
     reserve(ids, 3u, slots);
     insole_wall_losses_t before = losses;
@@ -310,7 +316,8 @@ END_TEST
 
 START_TEST(nothing_happens_to_null)
 {
-    uint32_t id = 1u, slot = 77u;
+    uint32_t id = 1u;
+    uint8_t slot = 77u;
     ck_assert_int_eq(insole_wall_losses_init(NULL), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_wall_losses_limit(NULL, 20), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_wall_losses_move(NULL, 1, 0, 0), INSOLE_ERR_NULL);

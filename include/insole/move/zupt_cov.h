@@ -22,11 +22,23 @@
 extern "C" {
 #endif
 
+/** A firmware that never estimates the accelerometer's bias may set 9 when it compiles the library,
+ *  and then itself: nothing of the bias remains in state and code, and there is no smoother. */
+#ifndef INSOLE_ZUPT_STATES
+#define INSOLE_ZUPT_STATES 12
+#endif
+#if INSOLE_ZUPT_STATES != 9 && INSOLE_ZUPT_STATES != 12
+#error "INSOLE_ZUPT_STATES is 9 or 12"
+#endif
+
 /** Covariance of dx: p position, v velocity, a attitude, b accelerometer bias. */
 typedef struct {
-    insole_sym3_t pp, vv, aa, bb;
+    insole_sym3_t pp, vv, aa;
     insole_mat3_t pv, pa, va;
+#if INSOLE_ZUPT_STATES == 12
+    insole_sym3_t bb;
     insole_mat3_t pb, vb, ab;
+#endif
 } insole_zupt_cov_t;
 
 /** An error of the state, or a column of its covariance. */
@@ -82,7 +94,7 @@ static inline void insole_zupt_turn_rows(insole_zupt_cov_t *P, insole_vec3_t u)
     P->va = va;
 }
 
-/* What the bias adds afterwards: v' = v - U a + G b. */
+/* What the bias adds afterwards: v' = v - U a + G b. Not with nine states. */
 void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P, insole_vec3_t u, const insole_mat3_t *C,
                                     insole_real_t dt_s);
 
@@ -95,15 +107,30 @@ static inline void insole_zupt_cov_propagate(insole_zupt_cov_t *P, insole_vec3_t
 {
     insole_zupt_move_rows(P, u, dt_s); /* [TwoOrder (20)-(21)], [TwoOrder (24)] */
     insole_zupt_turn_rows(P, u);
+#if INSOLE_ZUPT_STATES == 12
     if (has_bias) {
         insole_zupt_cov_propagate_bias(P, u, C, dt_s);
     }
+#else
+    (void)C, (void)has_bias;
+#endif
 }
 
 /** P H' w with H = [0 I 0 0]: what a measurement of the velocity tells of all. */
 insole_zupt_error_t insole_zupt_cov_of_velocity(const insole_zupt_cov_t *P, insole_vec3_t w);
 
-/* The blocks of the bias, once those of p, v and a are corrected. @return K z of the bias */
+/** What is known of the velocity, and all that it told, is known no more: rows of v, and p by a. */
+void insole_zupt_cov_forget_motion(insole_zupt_cov_t *P);
+
+/** Errors of the position are counted from here: without the rest of its row nothing that is
+ *  learned later speaks of the way before. */
+void insole_zupt_cov_forget_place(insole_zupt_cov_t *P);
+
+/** Yaw is known from now on: nothing that is learned later speaks of its error before. */
+void insole_zupt_cov_forget_yaw(insole_zupt_cov_t *P);
+
+/* The blocks of the bias, once those of p, v and a are corrected. Not with nine states.
+ * @return K z of the bias */
 insole_vec3_t insole_zupt_cov_correct_bias(insole_zupt_cov_t *P, const insole_sym3_t *W,
                                            insole_real_t r, insole_vec3_t z);
 
@@ -135,8 +162,15 @@ static inline insole_zupt_error_t insole_zupt_cov_correct_velocity(insole_zupt_c
     dx.v = insole_sym3_mul_vec(K_v, z);
     P->vv = insole_sym3_scale(K_v, r);
 
-    const insole_sym3_t kept = W; /* else W would be in memory all the time */
-    dx.b = has_bias ? insole_zupt_cov_correct_bias(P, &kept, r, z) : insole_vec3_zero();
+    dx.b = insole_vec3_zero();
+#if INSOLE_ZUPT_STATES == 12
+    if (has_bias) {
+        const insole_sym3_t kept = W; /* else W would be in memory all the time */
+        dx.b = insole_zupt_cov_correct_bias(P, &kept, r, z);
+    }
+#else
+    (void)has_bias;
+#endif
     return dx;
 }
 
@@ -146,7 +180,7 @@ insole_zupt_error_t insole_zupt_cov_of_height(const insole_zupt_cov_t *P);
 /** (I - k h) P for a measurement of the height with variance `r`. */
 void insole_zupt_cov_correct_height(insole_zupt_cov_t *P, insole_real_t r);
 
-/** P x */
+/** P x; not with nine states. */
 insole_zupt_error_t insole_zupt_cov_mul(const insole_zupt_cov_t *P, const insole_zupt_error_t *x);
 
 static inline insole_zupt_error_t insole_zupt_error_scale(insole_zupt_error_t x, insole_real_t s)

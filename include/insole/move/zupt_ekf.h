@@ -4,7 +4,8 @@
  *  Frames  b: sensor on the shoe, any mounting.  n: local level, z up.
  *  State   p v q and, if wanted, the accelerometer's bias b; the filter estimates their error
  *          dx = [dp dv da db], eq. (18): p and v additive, R_true = (I + [da]x) R, b additive.
- *          Nine states when `sigma_accel_bias_mps2` is 0, twelve otherwise.
+ *          Nine states when `sigma_accel_bias_mps2` is 0, twelve otherwise; a library that is
+ *          compiled with INSOLE_ZUPT_STATES 9 has no other (zupt_cov.h).
  *
  *      static insole_zupt_ekf_t foot;
  *      insole_zupt_ekf_init(&foot, &insole_zupt_ekf_defaults);
@@ -28,6 +29,14 @@
 extern "C" {
 #endif
 
+#if INSOLE_ZUPT_STATES == 12
+#define INSOLE_ZUPT_BIAS_MPS2      0.05
+#define INSOLE_ZUPT_BIAS_MOST_MPS2 1.0
+#else
+#define INSOLE_ZUPT_BIAS_MPS2      0.0
+#define INSOLE_ZUPT_BIAS_MOST_MPS2 0.0
+#endif
+
 /* clang-format off */
 #define INSOLE_ZUPT_EKF_KEYS(KEY)                                                                 \
     KEY(REAL, gravity_mps2, 9.81, 9.7, 9.9, "m/s^2",                                              \
@@ -44,7 +53,8 @@ extern "C" {
         "attitude random walk per turn rate (scale, misalignment); 0 = off")                      \
     KEY(REAL, clip_noise_rad_rts, 0.02, 0.0, 10.0, "rad/sqrt(s)",                                 \
         "attitude random walk about an axis whose gyro is clipped; 0 = off")                      \
-    KEY(REAL, sigma_accel_bias_mps2, 0.05, 0.0, 1.0, "m/s^2",                                     \
+    KEY(REAL, sigma_accel_bias_mps2, INSOLE_ZUPT_BIAS_MPS2, 0.0, INSOLE_ZUPT_BIAS_MOST_MPS2,        \
+        "m/s^2",                                                                                  \
         "1-sigma of the accelerometer bias at the start; 0 = nine states, no bias")               \
     KEY(REAL, accel_bias_walk_mps2_rts, 1.0e-4, 0.0, 0.1, "m/s^2/sqrt(s)",                        \
         "random walk of the accelerometer bias")                                                  \
@@ -95,17 +105,30 @@ typedef struct {
     uint64_t t_us;      /**< of the last sample */
     insole_real_t dt_s; /**< of the last interval */
     insole_real_t gravity_mps2;
-    insole_vec3_t p_m, v_mps;      /**< n */
-    insole_quat_t q;               /**< b to n */
+    insole_vec3_t p_m, v_mps; /**< n */
+    insole_quat_t q;          /**< b to n */
+#if INSOLE_ZUPT_STATES == 12
     insole_vec3_t accel_bias_mps2; /**< b */
-    insole_mat3_t C;               /**< rotation matrix of q */
-    insole_vec3_t force_mps2;      /**< n, mean specific force of the last interval */
+#endif
+    insole_mat3_t C;          /**< rotation matrix of q */
+    insole_vec3_t force_mps2; /**< n, mean specific force of the last interval */
     insole_vec3_t last_accel_mps2, last_gyro_radps; /**< b, of the last sample, bias removed */
     insole_zupt_cov_t P;
     insole_zupt_noise_t noise;
     insole_zupt_trace_t trace;
     uint32_t refused; /**< calls answered with a negative status */
 } insole_zupt_ekf_t;
+
+/** What is taken off a sample, b; none with nine states. */
+static inline insole_vec3_t insole_zupt_ekf_accel_bias(const insole_zupt_ekf_t *ekf)
+{
+#if INSOLE_ZUPT_STATES == 12
+    return ekf->accel_bias_mps2;
+#else
+    (void)ekf;
+    return insole_vec3_zero();
+#endif
+}
 
 /** Position zero, not aligned.
  *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */

@@ -74,7 +74,7 @@ insole_status_t insole_wall_losses_move(insole_wall_losses_t *losses, insole_rea
  *  they are needed.
  *  @return INSOLE_ERR_ROOM for more access points than slots */
 insole_status_t insole_wall_losses_reserve(insole_wall_losses_t *losses, const uint32_t *ids,
-                                           uint32_t count, uint32_t *slots);
+                                           uint32_t count, uint8_t *slots);
 
 /** Where a node lies; nodes count row by row from the lowest. */
 insole_spot_t insole_wall_losses_spot(const insole_wall_losses_t *losses, uint32_t node);
