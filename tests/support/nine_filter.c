@@ -2,6 +2,7 @@
  * The inertial filter compiled for nine states, under names of its own beside the library's. */
 #define INSOLE_ZUPT_STATES             9
 #define insole_zupt_ekf_defaults       nine_ekf_defaults
+#define insole_zupt_ekf_check          nine_ekf_check
 #define insole_zupt_ekf_init           nine_ekf_init
 #define insole_zupt_ekf_align          nine_ekf_align
 #define insole_zupt_ekf_predict        nine_ekf_predict
