@@ -13,7 +13,8 @@
 /* Of a plan's rectangle little may be walkable. */
 enum { ATTEMPTS = 8, ATTEMPTS_EVEN = 100 };
 
-insole_cloud_source_t insole_cloud_source(const insole_cloud_fix_t *fix, insole_real_t sigma_scale)
+INSOLE_COLD insole_cloud_source_t insole_cloud_source(const insole_cloud_fix_t *fix,
+                                                      insole_real_t sigma_scale)
 {
     insole_cloud_source_t source = {.x_m = fix->x_m,
                                     .y_m = fix->y_m,
@@ -33,8 +34,8 @@ static insole_real_t even_m2(insole_real_t length_m)
     return insole_square(length_m) / INSOLE_R(12.0);
 }
 
-insole_cloud_source_t insole_cloud_source_everywhere(const insole_floor_plan_t *plan,
-                                                     insole_real_t sigma_scale)
+INSOLE_COLD insole_cloud_source_t insole_cloud_source_everywhere(const insole_floor_plan_t *plan,
+                                                                 insole_real_t sigma_scale)
 {
     insole_real_t width_m = plan->cell_m * (insole_real_t)plan->columns;
     insole_real_t height_m = plan->cell_m * (insole_real_t)plan->rows;
@@ -49,8 +50,8 @@ insole_cloud_source_t insole_cloud_source_everywhere(const insole_floor_plan_t *
     return source;
 }
 
-void insole_cloud_source_put(insole_cloud_source_t *source, insole_spot_t spot,
-                             insole_sym2_t cov_m2)
+INSOLE_COLD void insole_cloud_source_put(insole_cloud_source_t *source, insole_spot_t spot,
+                                         insole_sym2_t cov_m2)
 {
     source->x_m = spot.x_m;
     source->y_m = spot.y_m;
@@ -59,7 +60,7 @@ void insole_cloud_source_put(insole_cloud_source_t *source, insole_spot_t spot,
     source->var_y_m2 = cov_m2.yy;
 }
 
-insole_turn_t insole_cloud_source_turn(const insole_cloud_source_t *source)
+INSOLE_COLD insole_turn_t insole_cloud_source_turn(const insole_cloud_source_t *source)
 {
     insole_real_t length =
         source->scale * insole_exp(-HALF * insole_square(source->sigma_offset_rad));
@@ -69,7 +70,8 @@ insole_turn_t insole_cloud_source_turn(const insole_cloud_source_t *source)
     return turn;
 }
 
-void insole_cloud_source_walk(insole_cloud_source_t *source, const insole_cloud_stride_t *stride)
+INSOLE_COLD void insole_cloud_source_walk(insole_cloud_source_t *source,
+                                          const insole_cloud_stride_t *stride)
 {
     insole_turn_t direction = insole_turn(stride->heading_rad);
     insole_spot_t way = {stride->length_m * direction.cos, stride->length_m * direction.sin};
@@ -85,8 +87,8 @@ void insole_cloud_source_walk(insole_cloud_source_t *source, const insole_cloud_
     source->var_y_m2 += var_m2;
 }
 
-void insole_cloud_source_widen(insole_cloud_source_t *source, insole_real_t sigma_m,
-                               insole_real_t sigma_rad)
+INSOLE_COLD void insole_cloud_source_widen(insole_cloud_source_t *source, insole_real_t sigma_m,
+                                           insole_real_t sigma_rad)
 {
     source->var_x_m2 += insole_square(sigma_m);
     source->var_y_m2 += insole_square(sigma_m);
@@ -99,16 +101,16 @@ static insole_real_t mixed(insole_real_t own, insole_real_t other, insole_real_t
     return own + share * (other - own);
 }
 
-insole_real_t insole_cloud_source_width(const insole_cloud_source_t *source, insole_real_t sigma_m,
-                                        insole_real_t sigma_rad)
+INSOLE_COLD insole_real_t insole_cloud_source_width(const insole_cloud_source_t *source,
+                                                    insole_real_t sigma_m, insole_real_t sigma_rad)
 {
     insole_real_t wide = HALF * (source->var_x_m2 + source->var_y_m2) / insole_square(sigma_m) +
                          insole_square(source->sigma_offset_rad / sigma_rad);
     return wide < WIDE_MAX ? wide / (ONE + wide) : ONE;
 }
 
-void insole_cloud_source_mix(insole_cloud_source_t *source, const insole_cloud_source_t *other,
-                             insole_real_t share)
+INSOLE_COLD void insole_cloud_source_mix(insole_cloud_source_t *source,
+                                         const insole_cloud_source_t *other, insole_real_t share)
 {
     insole_real_t x = other->x_m - source->x_m, y = other->y_m - source->y_m;
     insole_real_t between = share * (ONE - share);
@@ -164,8 +166,9 @@ static void draw_walk(const insole_cloud_source_t *source, insole_particle_t *pa
     }
 }
 
-void insole_cloud_source_draw(const insole_cloud_source_t *source, insole_particle_t *particle,
-                              const insole_floor_plan_t *plan, insole_rng_t *rng)
+INSOLE_COLD void insole_cloud_source_draw(const insole_cloud_source_t *source,
+                                          insole_particle_t *particle,
+                                          const insole_floor_plan_t *plan, insole_rng_t *rng)
 {
     draw_walk(source, particle, rng);
     particle->log_weight = INSOLE_PARTICLE_DEAD;
@@ -178,8 +181,8 @@ void insole_cloud_source_draw(const insole_cloud_source_t *source, insole_partic
     }
 }
 
-insole_cloud_aside_t insole_cloud_source_aside(const insole_cloud_source_t *source,
-                                               insole_real_t share)
+INSOLE_COLD insole_cloud_aside_t insole_cloud_source_aside(const insole_cloud_source_t *source,
+                                                           insole_real_t share)
 {
     insole_real_t widest = insole_sqrt(INSOLE_R(3.0)) * share; /* of what is even, in sigmas */
     insole_cloud_aside_t aside = {widest * insole_sqrt(source->var_x_m2),

@@ -19,20 +19,24 @@ static insole_status_t refuse(insole_particle_filter_t *filter, insole_status_t 
     return filter ? status : INSOLE_ERR_NULL;
 }
 
-insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
-                                            const insole_particle_filter_config_t *config,
-                                            uint64_t seed)
+INSOLE_COLD insole_status_t insole_particle_filter_init_steps(
+    insole_particle_filter_t *filter, const insole_particle_filter_config_t *config,
+    const insole_step_weighing_calls_t *calls, uint64_t seed)
 {
     insole_status_t status = insole_particle_config_check(config);
     if (!filter || status != INSOLE_OK) {
         return filter ? status : INSOLE_ERR_NULL;
     }
+    bool is_soft = config->walls == INSOLE_WALLS_SOFT;
+    if (is_soft && !calls) {
+        return INSOLE_ERR_NULL;
+    }
     memset(filter, 0, sizeof *filter);
     filter->config = *config;
-    filter->weighing.walls =
-        config->walls == INSOLE_WALLS_SOFT ? INSOLE_WALLS_OFF : (insole_walls_t)config->walls;
+    filter->weighing.walls = is_soft ? INSOLE_WALLS_OFF : (insole_walls_t)config->walls;
     insole_rng_seed(&filter->rng, seed);
-    status = insole_step_weighing_init(&filter->steps, config);
+    filter->step_calls = calls;
+    status = calls ? calls->init(&filter->steps, config) : INSOLE_OK;
     return status != INSOLE_OK ? status : insole_rss_field_init(&filter->field, &config->field);
 }
 
@@ -52,9 +56,9 @@ static void begin_drawing(insole_particle_filter_t *filter, const insole_cloud_s
     begin_phase(filter, INSOLE_PARTICLES_DRAW);
 }
 
-insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
-                                             const insole_cloud_t *cloud,
-                                             const insole_particle_start_t *start)
+INSOLE_COLD insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
+                                                         const insole_cloud_t *cloud,
+                                                         const insole_particle_start_t *start)
 {
     insole_status_t status = insole_particle_start_check(start);
     if (!filter || status != INSOLE_OK) {
@@ -64,14 +68,15 @@ insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
     return insole_particle_filter_start_from(filter, cloud, &source, NULL);
 }
 
-insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filter,
-                                                  const insole_cloud_t *cloud,
-                                                  const insole_cloud_source_t *source,
-                                                  const insole_spot_fix_t *fix)
+INSOLE_COLD insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filter,
+                                                              const insole_cloud_t *cloud,
+                                                              const insole_cloud_source_t *source,
+                                                              const insole_spot_fix_t *fix)
 {
     insole_status_t status = source ? insole_cloud_check(cloud) : INSOLE_ERR_NULL;
     if (filter && status == INSOLE_OK) {
-        status = insole_step_weighing_start(&filter->steps, fix, cloud->bias != NULL);
+        status =
+            insole_step_calls_start(filter->step_calls, &filter->steps, fix, cloud->bias != NULL);
     }
     if (!filter || status != INSOLE_OK) {
         return refuse(filter, status);
@@ -98,15 +103,15 @@ static bool is_idle(const insole_particle_filter_t *filter)
     return filter && filter->count > 0 && filter->phase == INSOLE_PARTICLES_IDLE;
 }
 
-insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
-                                             const insole_building_t *building,
-                                             const insole_evidence_t *news)
+INSOLE_COLD insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
+                                                         const insole_building_t *building,
+                                                         const insole_evidence_t *news)
 {
     insole_status_t status = insole_evidence_check(news);
     status = status == INSOLE_OK && !is_idle(filter) ? INSOLE_ERR_STATE : status;
     if (status == INSOLE_OK) {
-        status = insole_step_weighing_begin(&filter->steps, &filter->config, news, filter->has_bias,
-                                            building && building->plan);
+        status = insole_step_calls_begin(filter->step_calls, &filter->steps, &filter->config, news,
+                                         filter->has_bias, building && building->plan);
     }
     if (status != INSOLE_OK) {
         return refuse(filter, status);
@@ -137,17 +142,17 @@ static void begin_sum(insole_particle_filter_t *filter, const insole_cloud_t *cl
 }
 
 /* Draws about the same place, wider each time in a row. */
-static void draw_wider(insole_particle_filter_t *filter, insole_cloud_source_t source)
+INSOLE_COLD static void draw_wider(insole_particle_filter_t *filter, insole_cloud_source_t source)
 {
     insole_real_t wider = (insole_real_t)(1u << filter->deaths);
     insole_cloud_source_widen(&source, wider * filter->config.recover_sigma_m,
                               wider * filter->config.recover_offset_rad);
     filter->deaths += filter->deaths < DEATHS_MAX ? 1u : 0u;
-    insole_step_weighing_start(&filter->steps, NULL, false);
+    (void)insole_step_calls_start(filter->step_calls, &filter->steps, NULL, false);
     begin_drawing(filter, &source);
 }
 
-static void end_weighing(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+INSOLE_COLD static void end_weighing(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
 {
     if (!insole_weighing_has_survivors(&filter->weighing)) {
         filter->counts.recovered++;
@@ -181,15 +186,6 @@ static void point_elsewhere(insole_particle_filter_t *filter)
     filter->counts.redrawn++;
 }
 
-insole_real_t insole_particle_filter_misfit(const insole_particle_filter_t *filter)
-{
-    if (!filter) {
-        return ZERO;
-    }
-    insole_real_t power = filter->is_blind ? filter->config.blind_power : ONE;
-    return power * filter->field.elsewhere_likelier;
-}
-
 static void begin_finish(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
 {
     bool visits = filter->redraw_every > 0 || cloud->past_strides > 0 || filter->spreads;
@@ -197,7 +193,7 @@ static void begin_finish(insole_particle_filter_t *filter, const insole_cloud_t 
     filter->phase = INSOLE_PARTICLES_FINISH;
 }
 
-static void end_sum(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+INSOLE_COLD static void end_sum(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
 {
     const insole_particle_filter_config_t *config = &filter->config;
     insole_cloud_fix(&filter->sum, &filter->fix);
@@ -242,14 +238,16 @@ static void finish(insole_particle_filter_t *filter, const insole_cloud_t *cloud
 
 /* ---- the work ---- */
 
-static void draw_one(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
-                     const insole_floor_plan_t *plan, uint32_t number)
+static void draw(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
+                 const insole_floor_plan_t *plan, uint32_t first, uint32_t end)
 {
-    insole_particle_t *particle = &cloud->particles[number];
-    plan = filter->anywhere ? NULL : plan;
-    insole_cloud_source_draw(&filter->source, particle, plan, &filter->rng);
-    insole_step_weighing_drawn(&filter->steps, cloud, number);
-    insole_weighing_note(&filter->weighing, particle, number);
+    for (uint32_t i = first; i < end; i++) {
+        insole_cloud_source_draw(&filter->source, &cloud->particles[i], plan, &filter->rng);
+        if (filter->step_calls) {
+            filter->step_calls->drawn(&filter->steps, cloud, i);
+        }
+        insole_weighing_note(&filter->weighing, &cloud->particles[i], i);
+    }
 }
 
 /* Where a scan was told, or all must walk before any is weighed, weighing has a round of its own.
@@ -260,14 +258,14 @@ static void move(insole_particle_filter_t *filter, const insole_cloud_t *cloud,
     insole_weighing_t *weighing = &filter->weighing;
     insole_weighing_move(weighing, &filter->field, plan, cloud, first, end, &filter->rng);
     if (filter->phase == INSOLE_PARTICLES_STEP) {
-        insole_step_weighing_look(&filter->steps, plan, cloud, first, end);
+        filter->step_calls->look(&filter->steps, plan, cloud, first, end);
     } else if (!weighing->news.has_scan) {
         insole_weighing_weigh(weighing, &filter->field, cloud, first, end);
     }
 }
 
 /* Where nothing walkable is even far around, going on without the plan is better than an end. */
-static void end_drawing(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
+INSOLE_COLD static void end_drawing(insole_particle_filter_t *filter, const insole_cloud_t *cloud)
 {
     if (insole_weighing_has_survivors(&filter->weighing)) {
         begin_sum(filter, cloud);
@@ -317,16 +315,14 @@ static void work_particles(insole_particle_filter_t *filter, const insole_cloud_
     filter->next = end;
     switch (filter->phase) {
     case INSOLE_PARTICLES_DRAW:
-        for (uint32_t i = first; i < end; i++) {
-            draw_one(filter, cloud, plan, i);
-        }
+        draw(filter, cloud, filter->anywhere ? NULL : plan, first, end);
         break;
     case INSOLE_PARTICLES_STEP:
     case INSOLE_PARTICLES_MOVE:
         move(filter, cloud, plan, first, end);
         break;
     case INSOLE_PARTICLES_STEP_WEIGH:
-        insole_step_weighing_weigh(&filter->steps, plan, cloud, first, end); /* fall through */
+        filter->step_calls->weigh(&filter->steps, plan, cloud, first, end); /* fall through */
     case INSOLE_PARTICLES_WEIGH:
         insole_weighing_weigh(&filter->weighing, &filter->field, cloud, first, end);
         break;

@@ -71,7 +71,8 @@ insole_status_t insole_step_cloud_init(insole_step_cloud_t *cloud,
     cloud->cloud = *memory;
     cloud->building.plan = plan;
     cloud->ring = insole_ring(INSOLE_STEP_CLOUD_WAITING);
-    return insole_particle_filter_init(&cloud->filter, &config->particles, seed);
+    return insole_particle_filter_init_steps(&cloud->filter, &config->particles,
+                                             &insole_step_weighing_calls, seed);
 }
 
 insole_status_t insole_step_cloud_start(insole_step_cloud_t *cloud,

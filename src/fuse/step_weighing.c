@@ -138,3 +138,7 @@ void insole_step_weighing_weigh(const insole_step_weighing_t *steps,
         }
     }
 }
+
+const insole_step_weighing_calls_t insole_step_weighing_calls = {
+    insole_step_weighing_init,  insole_step_weighing_start, insole_step_weighing_drawn,
+    insole_step_weighing_begin, insole_step_weighing_look,  insole_step_weighing_weigh};

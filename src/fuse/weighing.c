@@ -9,9 +9,11 @@ void insole_weighing_begin(insole_weighing_t *weighing)
     weighing->heaviest = 0;
 }
 
-bool insole_weighing_listen(const insole_weighing_t *weighing, insole_rss_field_t *field,
-                            const insole_building_t *building, const insole_evidence_t *news,
-                            const insole_cloud_source_t *reach, insole_real_t wide_rad)
+INSOLE_COLD bool insole_weighing_listen(const insole_weighing_t *weighing,
+                                        insole_rss_field_t *field,
+                                        const insole_building_t *building,
+                                        const insole_evidence_t *news,
+                                        const insole_cloud_source_t *reach, insole_real_t wide_rad)
 {
     insole_rss_around_t around = {.x_m = reach->x_m - weighing->news.since.x_m,
                                   .y_m = reach->y_m - weighing->news.since.y_m,

@@ -52,8 +52,8 @@ INSOLE_COLD insole_status_t insole_foot_fusion_init(insole_foot_fusion_t *fusion
     fusion->radio.ranges = memory->ranges;
     bool printed = config->method == INSOLE_FUSION_TWO_ORDER;
     (void)insole_foot_tracker_init(&fusion->foot, &config->foot);
-    return insole_particle_filter_init(&fusion->particles,
-                                       printed ? &config->two_order : &config->particles, seed);
+    return insole_particle_filter_init_steps(
+        &fusion->particles, printed ? &config->two_order : &config->particles, memory->steps, seed);
 }
 
 static insole_status_t answer(insole_foot_fusion_t *fusion, insole_status_t status)

@@ -47,6 +47,11 @@ INSOLE_COLD insole_status_t insole_fusion_memory_check(const insole_fusion_memor
     if (is_patient && !(memory->starter.hear && memory->starter.state)) {
         return INSOLE_ERR_NULL;
     }
+    const insole_particle_filter_config_t *particles =
+        config->method == INSOLE_FUSION_TWO_ORDER ? &config->two_order : &config->particles;
+    if (particles->walls == INSOLE_WALLS_SOFT && !memory->steps) {
+        return INSOLE_ERR_NULL;
+    }
     insole_cloud_t cloud = insole_fusion_cloud(memory);
     return insole_cloud_check(&cloud);
 }

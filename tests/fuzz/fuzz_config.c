@@ -23,8 +23,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static insole_spot_t past;
     static insole_fusion_start_t start;
     static insole_fusion_ranges_t ranges;
-    const insole_fusion_memory_t memory = {&particle, 1u,      &past,
-                                           1u,        &ranges, {insole_fusion_start_hear, &start}};
+    const insole_fusion_memory_t memory = {&particle,
+                                           1u,
+                                           &past,
+                                           1u,
+                                           &ranges,
+                                           {insole_fusion_start_hear, &start},
+                                           &insole_step_weighing_calls};
     failure_t failure = {EXIT_DONE, ""};
     settings_init(&settings);
     if (!config_read_file(&settings, fuzz_file(data, size), "config", &failure)) {

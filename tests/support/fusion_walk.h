@@ -173,9 +173,13 @@ static inline fusion_case_t usual_case(void)
 
 static inline insole_fusion_memory_t memory_of(const fusion_case_t *c)
 {
-    insole_fusion_memory_t memory = {fusion_particles, c->particles,
-                                     fusion_past,      FUSION_PAST,
-                                     &fusion_ranges,   {insole_fusion_start_hear, &fixes_of_start}};
+    insole_fusion_memory_t memory = {fusion_particles,
+                                     c->particles,
+                                     fusion_past,
+                                     FUSION_PAST,
+                                     &fusion_ranges,
+                                     {insole_fusion_start_hear, &fixes_of_start},
+                                     &insole_step_weighing_calls};
     return memory;
 }
 

@@ -368,6 +368,12 @@ START_TEST(bad_memory_changes_nothing)
     config.method = INSOLE_FUSION_BEST;
     config.start_fixes = 1;
     ck_assert_int_eq(judge(), INSOLE_OK);
+    memory.steps = NULL;
+    ck_assert_int_eq(judge(), INSOLE_OK);
+    config.particles.walls = INSOLE_WALLS_SOFT;
+    ASSERT_UNCHANGED(fusion, judge(), INSOLE_ERR_NULL);
+    memory = good;
+    ck_assert_int_eq(judge(), INSOLE_OK);
 }
 END_TEST
 

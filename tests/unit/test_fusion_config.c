@@ -67,7 +67,7 @@ START_TEST(memory_must_be_there)
     static insole_fusion_start_t start;
     insole_foot_fusion_config_t at_once = insole_foot_fusion_defaults, late = at_once;
     late.lag_s = 2;
-    insole_fusion_memory_t memory = {particles, 3, past, 2, NULL, {NULL, NULL}};
+    insole_fusion_memory_t memory = {particles, 3, past, 2, NULL, {NULL, NULL}, NULL};
     ck_assert_int_eq(insole_fusion_memory_check(NULL, &at_once), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_fusion_memory_check(&memory, NULL), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_fusion_memory_check(&memory, &late), INSOLE_OK);

@@ -1039,20 +1039,25 @@ START_TEST(null_is_refused)
 }
 END_TEST
 
+static insole_status_t init_all(const insole_particle_filter_config_t *config)
+{
+    return insole_particle_filter_init_steps(&filter, config, &insole_step_weighing_calls, 1u);
+}
+
 /* Each setting at its ends passes, beyond them it does not. */
 #define CHECK_RANGE(kind, name, value, low, high, unit, text)                                      \
     do {                                                                                           \
         insole_particle_filter_config_t c = insole_particle_filter_defaults;                       \
         c.name = INSOLE_CONFIG_LITERAL_##kind(low);                                                \
-        ck_assert_int_eq(insole_particle_filter_init(&filter, &c, 1u), INSOLE_OK);                 \
+        ck_assert_int_eq(init_all(&c), INSOLE_OK);                                                 \
         c.name = INSOLE_CONFIG_LITERAL_##kind(high);                                               \
-        ck_assert_int_eq(insole_particle_filter_init(&filter, &c, 1u), INSOLE_OK);                 \
+        ck_assert_int_eq(init_all(&c), INSOLE_OK);                                                 \
         insole_particle_filter_t before_ = filter;                                                 \
         c.name += 1;                                                                               \
-        ck_assert_int_eq(insole_particle_filter_init(&filter, &c, 1u), INSOLE_ERR_VALUE);          \
+        ck_assert_int_eq(init_all(&c), INSOLE_ERR_VALUE);                                          \
         c.name = INSOLE_CONFIG_LITERAL_##kind(low);                                                \
         c.name -= 1;                                                                               \
-        ck_assert_int_eq(insole_particle_filter_init(&filter, &c, 1u), INSOLE_ERR_VALUE);          \
+        ck_assert_int_eq(init_all(&c), INSOLE_ERR_VALUE);                                          \
         ck_assert_mem_eq(&filter, &before_, sizeof filter);                                        \
     } while (0);
 
@@ -1118,6 +1123,40 @@ START_TEST(whatever_comes_the_fix_is_finite)
 }
 END_TEST
 
+/* Without the calls for what a phone tells there is no start about a fix, no compass, and no wall
+ * is soft; what a shoe tells is as ever. */
+START_TEST(what_a_phone_tells_needs_its_calls)
+{
+    insole_particle_filter_config_t soft = insole_particle_filter_defaults;
+    soft.walls = INSOLE_WALLS_SOFT;
+    begin_filter(&insole_particle_filter_defaults, 50);
+    insole_particle_filter_t before_ = filter;
+    ck_assert_int_eq(insole_particle_filter_init(&filter, &soft, 1u), INSOLE_ERR_NULL);
+    ck_assert_mem_eq(&filter, &before_, sizeof filter);
+    ck_assert_int_eq(init_all(&soft), INSOLE_OK);
+    for (int with = 0; with < 2; with++) {
+        insole_status_t status = with ? INSOLE_OK : INSOLE_ERR_STATE;
+        insole_particle_start_t s = {0, 0, 1, 0, INSOLE_R(0.1)};
+        insole_spot_fix_t fix = {1000u, {0, 0}, insole_sym2(1, 0, 1), {0, 0}};
+        insole_cloud_source_t source = insole_particle_start_source(&s, INSOLE_R(0.02));
+        ck_assert_int_eq(
+            with ? init_all(&insole_particle_filter_defaults)
+                 : insole_particle_filter_init(&filter, &insole_particle_filter_defaults, 1u),
+            INSOLE_OK);
+        uint32_t refused = filter.counts.refused;
+        ck_assert_int_eq(insole_particle_filter_start_from(&filter, &cloud, &source, &fix), status);
+        ck_assert_int_eq(insole_particle_filter_start(&filter, &cloud, &s), INSOLE_OK);
+        while (insole_particle_filter_work(&filter, &cloud, NULL, 1000u)) {
+        }
+        insole_evidence_t told;
+        insole_evidence_clear(&told);
+        ck_assert_int_eq(insole_evidence_compass(&told, INSOLE_R(0.1), INSOLE_R(0.2)), INSOLE_OK);
+        ck_assert_int_eq(insole_particle_filter_begin(&filter, NULL, &told), status);
+        ck_assert_uint_eq(filter.counts.refused, refused + (with ? 0u : 2u));
+    }
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("particle_filter");
@@ -1159,5 +1198,6 @@ Suite *insole_suite(void)
     suite_add(suite, "null", null_is_refused);
     suite_add(suite, "settings", settings_keep_to_their_ranges);
     suite_add_loop(suite, "whatever comes", whatever_comes_the_fix_is_finite, 3);
+    suite_add(suite, "calls", what_a_phone_tells_needs_its_calls);
     return suite;
 }

@@ -37,6 +37,7 @@ static void lend_memory(foot_estimator_t *estimator, insole_real_t lag_s, int32_
     memory->particles = memory_new(memory->count, sizeof *memory->particles);
     (void)insole_fusion_ranges_init(&estimator->ranges);
     memory->ranges = &estimator->ranges;
+    memory->steps = &insole_step_weighing_calls;
     (void)insole_fusion_start_init(&estimator->start, start_fixes);
     memory->starter = (insole_fusion_starter_t){insole_fusion_start_hear, &estimator->start};
     if (lag_s > INSOLE_R(0.0)) {

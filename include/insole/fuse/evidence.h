@@ -36,7 +36,7 @@ typedef struct {
 } insole_evidence_range_t;
 
 typedef struct {
-    bool has_stride, has_position, has_scan;
+    bool has_stride, has_position, has_scan, has_compass;
     insole_real_t length_m;                        /**< of the stride, s_k of (32) */
     insole_real_t heading_rad;                     /**< n: its direction, psi_k of (32) */
     insole_real_t turn_rad;                        /**< of the heading from the stride before */
@@ -55,8 +55,7 @@ typedef struct {
     const insole_spot_fix_t *fix;  /**< the caller's; NULL: none */
     const insole_rss_weigh_t *rss; /**< the caller's; NULL: none */
     insole_spot_t rss_since;       /**< n: way walked since that was heard */
-    bool has_compass;
-    insole_real_t compass_rad; /**< offset from n to m */
+    insole_real_t compass_rad;     /**< offset from n to m */
     insole_real_t sigma_compass_rad;
 } insole_evidence_t;
 

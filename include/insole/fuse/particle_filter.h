@@ -70,12 +70,13 @@ typedef struct {
     insole_particle_counts_t counts;
     insole_cloud_fix_t fix; /**< the last one that was reached */
     bool has_fix;
+    bool has_bias; /**< particles of the cloud that was started have biases */
 
     insole_rng_t rng;
-    uint32_t count;             /**< particles of the cloud that was started; 0: none */
-    bool has_bias;              /**< its particles have biases */
-    uint32_t since_start;       /**< strides since */
-    insole_weighing_t weighing; /**< what is being worked in */
+    uint32_t count;                                 /**< of those particles; 0: none */
+    uint32_t since_start;                           /**< strides since */
+    insole_weighing_t weighing;                     /**< what is being worked in */
+    const insole_step_weighing_calls_t *step_calls; /**< NULL: nothing of a phone is told */
     insole_step_weighing_t steps;
 
     insole_particle_phase_t phase;
@@ -92,10 +93,22 @@ typedef struct {
     insole_rss_field_t field;
 } insole_particle_filter_t;
 
-/** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
-insole_status_t insole_particle_filter_init(insole_particle_filter_t *filter,
-                                            const insole_particle_filter_config_t *config,
-                                            uint64_t seed);
+/** @param calls  &insole_step_weighing_calls, for one that is also told what a phone tells or has
+ *                soft walls; NULL: neither, and nothing of them is linked
+ *  @return INSOLE_ERR_NULL, also for soft walls without calls; INSOLE_ERR_VALUE for a setting out
+ * of its range */
+insole_status_t insole_particle_filter_init_steps(insole_particle_filter_t *filter,
+                                                  const insole_particle_filter_config_t *config,
+                                                  const insole_step_weighing_calls_t *calls,
+                                                  uint64_t seed);
+
+/** A filter of strides, walls, strengths and ranges alone. @return as above */
+static inline insole_status_t
+insole_particle_filter_init(insole_particle_filter_t *filter,
+                            const insole_particle_filter_config_t *config, uint64_t seed)
+{
+    return insole_particle_filter_init_steps(filter, config, 0, seed);
+}
 
 /** Begins anew: the cloud will be drawn by `work`. What was not yet worked in is dropped.
  *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for what is not finite, a negative sigma, a cloud of
@@ -107,7 +120,8 @@ insole_status_t insole_particle_filter_start(insole_particle_filter_t *filter,
 /** The same from a source that insole_particle_origin_source() made.
  *  @param fix  by radio, about which particles are drawn: what part of their way to it is bias is
  *              known of each; NULL: none
- *  @return as above, and as insole_spot_fix_check() */
+ *  @return as above, and as insole_spot_fix_check(); INSOLE_ERR_STATE for a fix that the filter has
+ *          no calls for */
 insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filter,
                                                   const insole_cloud_t *cloud,
                                                   const insole_cloud_source_t *source,
@@ -115,7 +129,8 @@ insole_status_t insole_particle_filter_start_from(insole_particle_filter_t *filt
 
 /** Takes news to be worked in. Readings of unknown access points are passed over.
  *  @param building  NULL: nothing is known of it
- *  @return INSOLE_ERR_NULL, INSOLE_ERR_STATE before the start and while work is left;
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_STATE before the start, while work is left, and for what a
+ *          phone tells when the filter has no calls for it;
  *          INSOLE_ERR_TIME for a fix by fingerprints that is not newer than the one before */
 insole_status_t insole_particle_filter_begin(insole_particle_filter_t *filter,
                                              const insole_building_t *building,
@@ -139,7 +154,14 @@ static inline bool insole_particle_filter_has_settled(const insole_particle_filt
 
 /** How much likelier the last scans are where they point than where the cloud is, in logarithms:
  *  > 0 casts doubt on the cloud. */
-insole_real_t insole_particle_filter_misfit(const insole_particle_filter_t *filter);
+static inline insole_real_t insole_particle_filter_misfit(const insole_particle_filter_t *filter)
+{
+    if (!filter) {
+        return INSOLE_R(0.0);
+    }
+    insole_real_t power = filter->is_blind ? filter->config.blind_power : INSOLE_R(1.0);
+    return power * filter->field.elsewhere_likelier;
+}
 
 /** Where the ancestors of the present cloud were some strides ago: the position then, by all that
  *  is known now. The cloud must have kept its past.

@@ -75,6 +75,48 @@ void insole_step_weighing_weigh(const insole_step_weighing_t *steps,
                                 const insole_floor_plan_t *plan, const insole_cloud_t *cloud,
                                 uint32_t first, uint32_t end);
 
+/** The calls above, for a filter that is to have them. */
+typedef struct {
+    insole_status_t (*init)(insole_step_weighing_t *steps,
+                            const insole_particle_filter_config_t *config);
+    insole_status_t (*start)(insole_step_weighing_t *steps, const insole_spot_fix_t *fix,
+                             bool learns);
+    void (*drawn)(const insole_step_weighing_t *steps, const insole_cloud_t *cloud,
+                  uint32_t number);
+    insole_status_t (*begin)(insole_step_weighing_t *steps,
+                             const insole_particle_filter_config_t *config,
+                             const insole_evidence_t *news, bool learns, bool has_plan);
+    void (*look)(insole_step_weighing_t *steps, const insole_floor_plan_t *plan,
+                 const insole_cloud_t *cloud, uint32_t first, uint32_t end);
+    void (*weigh)(const insole_step_weighing_t *steps, const insole_floor_plan_t *plan,
+                  const insole_cloud_t *cloud, uint32_t first, uint32_t end);
+} insole_step_weighing_calls_t;
+
+extern const insole_step_weighing_calls_t insole_step_weighing_calls;
+
+/** As insole_step_weighing_start.
+ *  @return INSOLE_ERR_STATE for a fix without calls */
+static inline insole_status_t insole_step_calls_start(const insole_step_weighing_calls_t *calls,
+                                                      insole_step_weighing_t *steps,
+                                                      const insole_spot_fix_t *fix, bool learns)
+{
+    return calls ? calls->start(steps, fix, learns) : fix ? INSOLE_ERR_STATE : INSOLE_OK;
+}
+
+/** As insole_step_weighing_begin.
+ *  @return INSOLE_ERR_STATE for what a phone tells without calls */
+static inline insole_status_t insole_step_calls_begin(const insole_step_weighing_calls_t *calls,
+                                                      insole_step_weighing_t *steps,
+                                                      const insole_particle_filter_config_t *config,
+                                                      const insole_evidence_t *news, bool learns,
+                                                      bool has_plan)
+{
+    bool is_phone = news->fix || news->rss || news->has_compass;
+    return calls      ? calls->begin(steps, config, news, learns, has_plan)
+           : is_phone ? INSOLE_ERR_STATE
+                      : INSOLE_OK;
+}
+
 #ifdef __cplusplus
 }
 #endif

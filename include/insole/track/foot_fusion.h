@@ -63,10 +63,10 @@ typedef struct {
     insole_evidence_t news; /**< what the particles are told */
     bool is_told;           /**< a start that was told has been reached */
     bool wants_start;       /**< a start is told, and not yet used */
-    uint32_t doubt;         /**< strides that the cloud has yet to be good for after a gap */
     bool working;           /**< the particles have work left */
-    insole_fusion_strides_t strides;
     bool finished;
+    uint32_t doubt; /**< strides that the cloud has yet to be good for after a gap */
+    insole_fusion_strides_t strides;
 } insole_foot_fusion_t;
 
 /** @param building  NULL: nothing is known of it

@@ -70,6 +70,7 @@ typedef struct {
     uint32_t past_strides;           /**< as many as a walker makes in `lag_s`, and two more */
     insole_fusion_ranges_t *ranges;  /**< set up; NULL: ranges are refused */
     insole_fusion_starter_t starter; /**< for `start_fixes` beyond 1 */
+    const insole_step_weighing_calls_t *steps; /**< &insole_step_weighing_calls, for soft walls */
 } insole_fusion_memory_t;
 
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */

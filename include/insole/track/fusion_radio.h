@@ -52,9 +52,9 @@ typedef struct {
 
 /** A scan on its way to the particles. */
 typedef struct {
-    bool waits;
     uint64_t t_us;     /**< when it was heard */
     insole_spot_t n_m; /**< n, where the foot was then */
+    bool waits;
     uint32_t count;
     insole_rss_t readings[INSOLE_FUSION_HEARD]; /**< strongest first */
 } insole_fusion_scan_t;
