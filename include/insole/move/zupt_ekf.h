@@ -120,7 +120,8 @@ typedef struct {
 static inline insole_vec3_t insole_zupt_ekf_accel_bias(const insole_zupt_ekf_t *ekf)
 {
 #if INSOLE_ZUPT_STATES == 12
-    return ekf->accel_bias_mps2;
+    const insole_vec3_t *bias = &ekf->accel_bias_mps2;
+    return insole_vec3(bias->x, bias->y, bias->z); /* no copy in memory */
 #else
     (void)ekf;
     return insole_vec3_zero();
