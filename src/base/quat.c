@@ -3,6 +3,9 @@
 
 #include "insole/base/fastmath.h"
 
+/* Half a turn of 800 rad becomes small. */
+enum { MOST_DOUBLINGS = 13 };
+
 insole_quat_t insole_quat_normalize(insole_quat_t q)
 {
     return insole_quat_unit(q);
@@ -26,15 +29,34 @@ insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad)
     return insole_quat(turn.cos, s * v.x, s * v.y, s * v.z);
 }
 
+INSOLE_COLD insole_quat_t insole_quat_from_half(insole_vec3_t half_rad)
+{
+    insole_real_t half2 = insole_vec3_norm2(half_rad);
+    uint32_t doublings = 0u;
+    while (half2 >= INSOLE_QUAT_SMALL_RAD2 && doublings < MOST_DOUBLINGS) {
+        half_rad = insole_vec3_scale(half_rad, INSOLE_R(0.5));
+        half2 *= INSOLE_R(0.25);
+        doublings++;
+    }
+    insole_quat_t q = insole_quat_from_small(half_rad, half2);
+    while (doublings > 0u) {
+        q = insole_quat_mul(q, q);
+        doublings--;
+    }
+    return insole_quat_normalize(q);
+}
+
+/* Half an angle by the sum of two vectors: no angle is needed. */
 INSOLE_COLD insole_quat_t insole_quat_from_gravity(insole_vec3_t f_b)
 {
-    insole_real_t horizontal = insole_sqrt(f_b.y * f_b.y + f_b.z * f_b.z);
-    insole_real_t roll = insole_atan2(f_b.y, f_b.z);
-    insole_real_t pitch = insole_atan2(-f_b.x, horizontal);
-    insole_quat_t q_roll = insole_quat_from_rotvec(insole_vec3(roll, INSOLE_R(0.0), INSOLE_R(0.0)));
-    insole_quat_t q_pitch =
-        insole_quat_from_rotvec(insole_vec3(INSOLE_R(0.0), pitch, INSOLE_R(0.0)));
-    return insole_quat_chain(q_pitch, q_roll);
+    const insole_real_t zero = INSOLE_R(0.0);
+    insole_real_t y = f_b.y, z = f_b.z, side = insole_sqrt(y * y + z * z);
+    insole_quat_t roll = insole_quat(side + z, y, zero, zero);
+    if (z < zero) {
+        roll = insole_quat(insole_abs(y), y < zero ? z - side : side - z, zero, zero);
+    }
+    insole_quat_t pitch = insole_quat(insole_vec3_norm(f_b) + side, zero, -f_b.x, zero);
+    return insole_quat_mul(insole_quat_normalize(pitch), insole_quat_normalize(roll));
 }
 
 INSOLE_COLD insole_quat_t insole_quat_from_yaw(insole_real_t yaw_rad)

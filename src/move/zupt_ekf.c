@@ -107,8 +107,9 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf,
         return refuse(ekf, INSOLE_ERR_VALUE);
     }
     insole_quat_t level = insole_quat_from_gravity(mean_accel_mps2); /* [TwoOrder] table 1 */
-    insole_quat_t turn = insole_quat_from_yaw(yaw_rad - insole_quat_yaw(level));
-    ekf->q = insole_quat_chain(turn, level);
+    insole_real_t half = INSOLE_R(0.5) * insole_wrap_pi(yaw_rad);
+    insole_quat_t turn = insole_quat_from_half(insole_vec3(ZERO, ZERO, half));
+    ekf->q = insole_quat_normalize(insole_quat_mul(turn, level));
     ekf->C = insole_quat_to_mat3(ekf->q);
     ekf->v_mps = insole_vec3_zero();
     ekf->last_accel_mps2 = mean_accel_mps2;
@@ -133,9 +134,8 @@ static insole_vec3_t mean_of(insole_vec3_t now, insole_real_t part, insole_vec3_
 static void turn(insole_zupt_ekf_t *ekf, insole_vec3_t half_rad)
 {
     insole_real_t half2 = insole_vec3_norm2(half_rad);
-    insole_quat_t dq = half2 < INSOLE_QUAT_SMALL_RAD2
-                           ? insole_quat_from_small(half_rad, half2)
-                           : insole_quat_from_rotvec(insole_vec3_add(half_rad, half_rad));
+    insole_quat_t dq = half2 < INSOLE_QUAT_SMALL_RAD2 ? insole_quat_from_small(half_rad, half2)
+                                                      : insole_quat_from_half(half_rad);
     ekf->q = insole_quat_mul(ekf->q, dq); /* [TwoOrder (12)-(14)] */
     ekf->C = insole_quat_to_mat3(ekf->q);
 }

@@ -237,6 +237,36 @@ START_TEST(gravity_gives_roll_and_pitch)
 }
 END_TEST
 
+/* Without a sine: the error of the small rotation, doubled as often as the angle is halved. */
+START_TEST(half_a_rotation_vector_gives_the_rotation)
+{
+    insole_rng_t rng = seeded();
+    worst_t off = {0.0, 0.0};
+    for (int n = 0; n < TRIES; n++) {
+        double size = pow(10.0, -4.0 + 6.8 * (n + 0.5) / TRIES); /* to 630 rad */
+        insole_vec3_t half =
+            insole_vec3_scale(sample_vec3(&rng, INSOLE_R(1.0)), (insole_real_t)size);
+        double x = (double)half.x, y = (double)half.y, z = (double)half.z;
+        double angle = sqrt(x * x + y * y + z * z), s = sin(angle) / angle;
+        insole_quat_t q = insole_quat_from_half(half);
+        double d[4] = {(double)q.w - cos(angle), (double)q.x - s * x, (double)q.y - s * y,
+                       (double)q.z - s * z};
+        double error = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + d[3] * d[3]);
+        ASSERT_NEAR(norm_of(q), 1.0, 3.0 * EPS, "");
+        worst_note(&off, error / (2.0 + 20.0 * angle), n);
+    }
+    ASSERT_WORST(off, EPS, "");
+}
+END_TEST
+
+START_TEST(half_a_rotation_vector_without_end_gives_no_nonsense)
+{
+    static const double SIZES[4] = {1.0e4, 1.0e10, 1.0e30, INFINITY};
+    insole_quat_t q = insole_quat_from_half(insole_vec3_scale(axis(2), (insole_real_t)SIZES[_i]));
+    ASSERT_NEAR(norm_of(q), 1.0, 3.0 * EPS, "");
+}
+END_TEST
+
 /* Up is up, and the body's x axis points along n-frame x as far as it is level. */
 START_TEST(gravity_gives_level_and_yaw_zero_in_any_mounting)
 {
@@ -310,6 +340,9 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "rotation vector", rotation_vectors_turn_as_rodrigues_says, ANGLE_COUNT);
     suite_add_loop(suite, "small angles", small_rotation_vectors_keep_their_digits, 4);
     suite_add_loop(suite, "absurd angles", absurd_rotation_vectors_give_finite_unit_quaternions, 4);
+    suite_add(suite, "half a rotation vector", half_a_rotation_vector_gives_the_rotation);
+    suite_add_loop(suite, "half without end", half_a_rotation_vector_without_end_gives_no_nonsense,
+                   4);
     suite_add(suite, "roll and pitch", gravity_gives_roll_and_pitch);
     suite_add(suite, "level", gravity_gives_level_and_yaw_zero_in_any_mounting);
     suite_add_loop(suite, "six faces", gravity_along_each_axis, 6);

@@ -99,6 +99,10 @@ insole_quat_t insole_quat_chain(insole_quat_t a, insole_quat_t b);
 /** Rotation by the angle |v| about v [rad]. */
 insole_quat_t insole_quat_from_rotvec(insole_vec3_t rotation_rad);
 
+/** Rotation by the angle 2 |half_rad| about it, up to 800 rad, without a sine: half as far until it
+ *  is small, and as often twice that. The error is that of the small rotation, as often doubled. */
+insole_quat_t insole_quat_from_half(insole_vec3_t half_rad);
+
 /** Attitude with yaw 0 of a resting sensor that feels the specific force `f_b`, table 1 of
  *  [TwoOrder] with the pitch of its erratum. Any mounting, upside down too. */
 insole_quat_t insole_quat_from_gravity(insole_vec3_t f_b);

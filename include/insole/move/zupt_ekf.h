@@ -53,7 +53,7 @@ extern "C" {
         "attitude random walk per turn rate (scale, misalignment); 0 = off")                      \
     KEY(REAL, clip_noise_rad_rts, 0.02, 0.0, 10.0, "rad/sqrt(s)",                                 \
         "attitude random walk about an axis whose gyro is clipped; 0 = off")                      \
-    KEY(REAL, sigma_accel_bias_mps2, INSOLE_ZUPT_BIAS_MPS2, 0.0, INSOLE_ZUPT_BIAS_MOST_MPS2,        \
+    KEY(REAL, sigma_accel_bias_mps2, INSOLE_ZUPT_BIAS_MPS2, 0.0, INSOLE_ZUPT_BIAS_MOST_MPS2,       \
         "m/s^2",                                                                                  \
         "1-sigma of the accelerometer bias at the start; 0 = nine states, no bias")               \
     KEY(REAL, accel_bias_walk_mps2_rts, 1.0e-4, 0.0, 0.1, "m/s^2/sqrt(s)",                        \
@@ -123,7 +123,8 @@ typedef struct {
 static inline insole_vec3_t insole_zupt_ekf_accel_bias(const insole_zupt_ekf_t *ekf)
 {
 #if INSOLE_ZUPT_STATES == 12
-    return ekf->accel_bias_mps2;
+    const insole_vec3_t *bias = &ekf->accel_bias_mps2;
+    return insole_vec3(bias->x, bias->y, bias->z); /* no copy in memory */
 #else
     (void)ekf;
     return insole_vec3_zero();
