@@ -74,18 +74,8 @@ static uint32_t hold_field(insole_real_t *value, insole_real_t last, insole_real
     return 1u;
 }
 
-/* Not true of what is no number. */
-static bool is_shorter(insole_vec3_t v, insole_real_t limit)
-{
-    return insole_vec3_norm2(v) <= insole_square(limit);
-}
-
 static bool hold_fields(insole_imu_t *imu, const insole_imu_t *last)
 {
-    if (is_shorter(imu->accel_mps2, ACCEL_LIMIT_MPS2) &&
-        is_shorter(imu->gyro_radps, GYRO_LIMIT_RADPS)) {
-        return false; /* nor is any of the fields beyond the limit */
-    }
     insole_vec3_t *a = &imu->accel_mps2, *w = &imu->gyro_radps;
     const insole_vec3_t *la = &last->accel_mps2, *lw = &last->gyro_radps;
     uint32_t held = 0u;
@@ -95,11 +85,17 @@ static bool hold_fields(insole_imu_t *imu, const insole_imu_t *last)
     return held > 0u;
 }
 
-/* Not true of a sample with a bad field either. */
-static bool is_calm(const insole_screen_t *s, const insole_imu_t *imu)
+/* What is no number is neither calm nor lively: fields of the rest may have to be held. */
+static insole_screen_look_t look_at(const insole_screen_t *s, const insole_imu_t *imu)
 {
-    return insole_vec3_norm2(imu->accel_mps2) < s->calm_accel2 &&
-           insole_vec3_norm2(imu->gyro_radps) < s->calm_gyro2;
+    insole_real_t accel2 = insole_vec3_norm2(imu->accel_mps2);
+    insole_real_t gyro2 = insole_vec3_norm2(imu->gyro_radps);
+    if (accel2 < s->calm_accel2 && gyro2 < s->calm_gyro2) {
+        return INSOLE_SCREEN_CALM;
+    }
+    bool fine =
+        accel2 <= insole_square(ACCEL_LIMIT_MPS2) && gyro2 <= insole_square(GYRO_LIMIT_RADPS);
+    return fine ? INSOLE_SCREEN_LIVELY : INSOLE_SCREEN_HELD;
 }
 
 /* Bad fields are held for a while; false: the sample is of no use. */
@@ -107,14 +103,13 @@ INSOLE_APART static bool repair_fields(insole_screen_t *s, insole_imu_t *imu,
                                        insole_screen_look_t *look)
 {
     const insole_imu_t *last = &pending(s)->clean.imu;
-    *look = INSOLE_SCREEN_LIVELY;
     if (!hold_fields(imu, last)) {
+        *look = INSOLE_SCREEN_LIVELY; /* long, but of fields that may be */
         return true;
     }
     if (s->look != INSOLE_SCREEN_HELD) {
         s->good_us = last->t_us;
     }
-    *look = INSOLE_SCREEN_HELD;
     s->counts.not_finite++;
     return s->held > 0u && imu->t_us - s->good_us <= s->hold_us;
 }
@@ -165,13 +160,6 @@ static bool is_in_time(insole_screen_t *s, uint64_t t_us)
     return s->held == 0u || t_us > pending(s)->clean.imu.t_us || is_believed(s, t_us);
 }
 
-/* Time since the sample before. */
-static uint32_t raw_interval_us(insole_screen_t *s, uint64_t t_us)
-{
-    uint64_t since_us = t_us - pending(s)->clean.imu.t_us;
-    return s->held > 0u && since_us < FAR_US ? (uint32_t)since_us : FAR_US;
-}
-
 /* Nothing is known of the time since the sample before: no sample came, or a run of them was
  * dropped because the clock had been put back. */
 static bool is_after_gap(insole_screen_t *s, uint32_t dt_us)
@@ -199,7 +187,7 @@ static int32_t even_lead_us(insole_screen_t *s, uint32_t dt_us, bool known)
     return (int32_t)s->clock.lead_us; /* at most INSOLE_EVEN_CLOCK_REACH_US */
 }
 
-/* ---- spikes ----------------------------------------------------------------------------- */
+/* ---- spikes and clipping ---------------------------------------------------------------- */
 
 /* The pending sample, between the one before it and the one that has come. */
 static void mend(insole_screen_t *s, const insole_imu_t *after, uint32_t since_us)
@@ -216,8 +204,6 @@ static void mend(insole_screen_t *s, const insole_imu_t *after, uint32_t since_u
                                   s->config.spike_gyro_radps);
     s->counts.spikes += accel || gyro ? 1u : 0u;
 }
-
-/* ---- clipping --------------------------------------------------------------------------- */
 
 static uint8_t clip_marks(insole_screen_t *s, insole_vec3_t gyro, insole_real_t dt_us)
 {
@@ -238,25 +224,10 @@ static void sum_add(insole_screen_t *s, const insole_clean_t *c, insole_real_t w
     s->sum_count++;
 }
 
-static void sum_clear(insole_screen_t *s)
+/* The stamp that a sample goes out with. */
+static uint64_t even_stamp(const insole_screen_slot_t *slot)
 {
-    s->sum_accel = s->sum_gyro = insole_vec3_zero();
-    s->sum_s = ZERO;
-    s->sum_marks = 0u;
-    s->sum_count = 0u;
-}
-
-/* The stamp that the sample that waits goes out with. */
-static uint64_t even_stamp(insole_screen_t *s)
-{
-    const insole_screen_slot_t *slot = pending(s);
     return slot->clean.imu.t_us + (uint64_t)(int64_t)slot->lead_us;
-}
-
-static void write_pending(insole_screen_t *s, insole_clean_t *clean)
-{
-    *clean = pending(s)->clean;
-    clean->imu.t_us = even_stamp(s);
 }
 
 static void write_mean(insole_screen_t *s, uint64_t t_us, insole_clean_t *clean)
@@ -266,48 +237,62 @@ static void write_mean(insole_screen_t *s, uint64_t t_us, insole_clean_t *clean)
     clean->imu.accel_mps2 = insole_vec3_scale(s->sum_accel, per_s);
     clean->imu.gyro_radps = insole_vec3_scale(s->sum_gyro, per_s);
     clean->marks = s->sum_marks;
-    sum_clear(s);
+    s->sum_count = 0u;
 }
 
 /* One of the samples that fill the shortest interval; the last of them takes all with it. */
-INSOLE_APART static insole_status_t average(insole_screen_t *s, insole_clean_t *clean)
+static const insole_clean_t *average(insole_screen_t *s, const insole_clean_t *c, uint32_t since_us,
+                                     insole_clean_t *room)
 {
-    insole_clean_t c;
-    write_pending(s, &c);
     if (s->sum_count == 0u) {
-        s->out_us = c.imu.t_us - pending(s)->since_us;
+        s->out_us = c->imu.t_us - since_us;
+        s->sum_accel = s->sum_gyro = insole_vec3_zero();
+        s->sum_s = ZERO;
+        s->sum_marks = 0u;
     }
-    uint64_t since_us = c.imu.t_us - s->out_us;
-    insole_real_t weight_s = insole_seconds(0u, since_us) - s->sum_s;
-    sum_add(s, &c, insole_max(weight_s, INSOLE_R(1.0e-6)));
-    if (since_us < s->least_us) {
+    uint64_t all_us = c->imu.t_us - s->out_us;
+    insole_real_t weight_s = insole_seconds(0u, all_us) - s->sum_s;
+    sum_add(s, c, insole_max(weight_s, INSOLE_R(1.0e-6)));
+    if (all_us < s->least_us) {
         s->counts.averaged++;
-        return INSOLE_ERR_STATE;
+        return NULL;
     }
-    write_mean(s, c.imu.t_us, clean);
-    return INSOLE_OK;
+    write_mean(s, c->imu.t_us, room);
+    return room;
 }
 
 /* ---- the stream ------------------------------------------------------------------------- */
 
-/* The sample that waits, on its way out. */
-static insole_status_t release(insole_screen_t *s, insole_clean_t *clean)
+/* With another stamp, or as a mean with others. */
+INSOLE_APART static const insole_clean_t *
+release_changed(insole_screen_t *s, const insole_screen_slot_t *slot, insole_clean_t *room)
 {
-    if (s->sum_count > 0u || pending(s)->since_us < s->least_us) {
-        return average(s, clean);
+    insole_clean_t c = slot->clean;
+    c.imu.t_us = even_stamp(slot);
+    if (s->sum_count > 0u || slot->since_us < s->least_us) {
+        return average(s, &c, slot->since_us, room);
     }
-    write_pending(s, clean);
-    return INSOLE_OK;
+    *room = c;
+    return room;
+}
+
+/* The sample that waits, on its way out. */
+static const insole_clean_t *release(insole_screen_t *s, const insole_screen_slot_t *slot,
+                                     insole_clean_t *room)
+{
+    bool as_it_is = s->sum_count == 0u && slot->since_us >= s->least_us && slot->lead_us == 0;
+    return as_it_is ? &slot->clean : release_changed(s, slot, room);
 }
 
 /* The same for one that may have a mark, have gone out already, or not be there. */
-INSOLE_APART static insole_status_t release_any(insole_screen_t *s, insole_clean_t *clean)
+INSOLE_APART static const insole_clean_t *release_any(insole_screen_t *s, insole_clean_t *room)
 {
+    const insole_screen_slot_t *slot = pending(s);
     if (s->held == 0u || s->look == INSOLE_SCREEN_OUT) {
-        return INSOLE_ERR_STATE;
+        return NULL;
     }
-    s->counts.gaps += (pending(s)->clean.marks & INSOLE_MARK_GAP) != 0u ? 1u : 0u;
-    return release(s, clean);
+    s->counts.gaps += (slot->clean.marks & INSOLE_MARK_GAP) != 0u ? 1u : 0u;
+    return release(s, slot, room);
 }
 
 /* What is calm, and follows the like, is neither clipped nor next to a spike. The watch for
@@ -328,25 +313,26 @@ INSOLE_APART static uint8_t look_closely(insole_screen_t *s, const insole_imu_t 
 }
 
 /* A sample in time, its fields repaired, takes the place of the one before that which waits. */
-static insole_status_t take_in(insole_screen_t *s, const insole_imu_t *imu,
-                               insole_screen_look_t look, insole_clean_t *clean)
+static const insole_clean_t *take_in(insole_screen_t *s, const insole_imu_t *imu,
+                                     insole_screen_look_t look, insole_clean_t *room)
 {
-    insole_screen_slot_t *slot = before(s);
-    uint32_t dt_us = raw_interval_us(s, imu->t_us);
+    insole_screen_slot_t *last = pending(s), *slot = before(s);
+    uint64_t raw_us = imu->t_us - last->clean.imu.t_us;
+    uint32_t dt_us = s->held > 0u && raw_us < FAR_US ? (uint32_t)raw_us : FAR_US;
     bool known = !is_after_gap(s, dt_us);
     int32_t lead_us = even_lead_us(s, dt_us, known);
-    int32_t since_us = (int32_t)dt_us + lead_us - pending(s)->lead_us;
+    int32_t since_us = (int32_t)dt_us + lead_us - last->lead_us;
     if (since_us < 1) { /* stamps advance */
         lead_us += 1 - since_us;
         since_us = 1;
     }
-    insole_status_t status;
+    const insole_clean_t *out;
     uint8_t marks = 0u;
     if (known && look == INSOLE_SCREEN_CALM && s->look == INSOLE_SCREEN_CALM) {
-        status = release(s, clean);
+        out = release(s, last, room);
     } else {
         marks = look_closely(s, imu, (uint32_t)since_us, known);
-        status = release_any(s, clean);
+        out = release_any(s, room);
         s->held = s->held > 0u ? 2u : 1u;
         look = known || look != INSOLE_SCREEN_CALM ? look : INSOLE_SCREEN_LIVELY;
     }
@@ -356,7 +342,37 @@ static insole_status_t take_in(insole_screen_t *s, const insole_imu_t *imu,
     slot->since_us = (uint32_t)since_us;
     s->look = look;
     s->newest ^= 1u;
-    return status;
+    return out;
+}
+
+const insole_clean_t *insole_screen_take(insole_screen_t *screen, const insole_imu_t *raw,
+                                         insole_clean_t *room)
+{
+    if (!screen || !raw || !room || screen->finished) {
+        return NULL;
+    }
+    screen->counts.samples++;
+    if (!is_in_time(screen, raw->t_us)) {
+        return NULL;
+    }
+    insole_screen_look_t look = look_at(screen, raw);
+    insole_imu_t repaired;
+    if (look == INSOLE_SCREEN_HELD) {
+        repaired = *raw;
+        raw = &repaired;
+        if (!repair_fields(screen, &repaired, &look)) {
+            return NULL;
+        }
+    }
+    return take_in(screen, raw, look, room);
+}
+
+static insole_status_t hand_over(const insole_clean_t *out, insole_clean_t *clean)
+{
+    if (out && out != clean) {
+        *clean = *out;
+    }
+    return out ? INSOLE_OK : INSOLE_ERR_STATE;
 }
 
 insole_status_t insole_screen_push(insole_screen_t *screen, const insole_imu_t *raw,
@@ -365,25 +381,7 @@ insole_status_t insole_screen_push(insole_screen_t *screen, const insole_imu_t *
     if (!screen || !raw || !clean) {
         return INSOLE_ERR_NULL;
     }
-    insole_screen_t *s = screen;
-    if (s->finished) {
-        return INSOLE_ERR_STATE;
-    }
-    s->counts.samples++;
-    if (!is_in_time(s, raw->t_us)) {
-        return INSOLE_ERR_STATE;
-    }
-    insole_screen_look_t look = INSOLE_SCREEN_CALM;
-    insole_imu_t repaired;
-    const insole_imu_t *imu = raw;
-    if (!is_calm(s, raw)) {
-        repaired = *raw;
-        imu = &repaired;
-        if (!repair_fields(s, &repaired, &look)) {
-            return INSOLE_ERR_STATE;
-        }
-    }
-    return take_in(s, imu, look, clean);
+    return hand_over(insole_screen_take(screen, raw, clean), clean);
 }
 
 insole_status_t insole_screen_finish(insole_screen_t *screen, insole_clean_t *clean)
@@ -392,11 +390,11 @@ insole_status_t insole_screen_finish(insole_screen_t *screen, insole_clean_t *cl
         return INSOLE_ERR_NULL;
     }
     insole_screen_t *s = screen;
-    insole_status_t status = s->finished ? INSOLE_ERR_STATE : release_any(s, clean);
+    const insole_clean_t *out = s->finished ? NULL : release_any(s, clean);
     s->finished = true;
-    if (status != INSOLE_OK && s->sum_count > 0u) {
-        write_mean(s, even_stamp(s), clean);
-        status = INSOLE_OK;
+    if (!out && s->sum_count > 0u) {
+        write_mean(s, even_stamp(pending(s)), clean);
+        out = clean;
     }
-    return status;
+    return hand_over(out, clean);
 }

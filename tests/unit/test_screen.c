@@ -483,6 +483,51 @@ START_TEST(jumps_and_clipped_samples_by_the_rule)
 }
 END_TEST
 
+/* In the screen or in the caller's room: what is taken is what would have been pushed. Plain
+ * stamps, stamps in bursts, too many samples. */
+START_TEST(what_is_taken_is_what_is_pushed)
+{
+    static insole_screen_t taken;
+    insole_clean_t room, pushed;
+    const double dt_us[] = {5000.0, 5000.0, 1300.0};
+    int in_room = 0, elsewhere = 0;
+    make_jumpy(77u);
+    begin(NULL);
+    taken = screen;
+    for (int i = 0; i < JUMPY; i++) {
+        uint64_t t_us = (uint64_t)(dt_us[_i] * (_i == 1 ? i / 4 * 4 + 0.01 * (i % 4) : i));
+        insole_imu_t imu = {t_us, vec3_of(jumpy[i]), vec3_of(jumpy[i] + 3)};
+        insole_status_t status = insole_screen_push(&screen, &imu, &pushed);
+        const insole_clean_t *out = insole_screen_take(&taken, &imu, &room);
+        ck_assert(!out == (status == INSOLE_ERR_STATE));
+        if (out) {
+            ck_assert(out->imu.t_us == pushed.imu.t_us && out->marks == pushed.marks);
+            ck_assert_mem_eq(&out->imu, &pushed.imu, sizeof pushed.imu);
+            in_room += out == &room ? 1 : 0;
+            elsewhere += out == &room ? 0 : 1;
+        }
+    }
+    ck_assert_mem_eq(&taken, &screen, sizeof screen);
+    ck_assert_int_gt(_i == 0 ? elsewhere : in_room, 1000);
+}
+END_TEST
+
+START_TEST(nothing_is_taken_from_nowhere)
+{
+    insole_imu_t imu = moving(1.0);
+    insole_clean_t room;
+    begin(NULL);
+    insole_screen_t before = screen;
+    ck_assert(!insole_screen_take(NULL, &imu, &room));
+    ck_assert(!insole_screen_take(&screen, NULL, &room));
+    ck_assert(!insole_screen_take(&screen, &imu, NULL));
+    finish();
+    before.finished = true;
+    ck_assert(!insole_screen_take(&screen, &imu, &room));
+    ck_assert_mem_eq(&screen, &before, sizeof screen);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("screen");
@@ -499,6 +544,8 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "averages", fast_samples_are_averaged_and_nothing_is_lost, 4);
     suite_add_loop(suite, "nonsense", nonsense_never_gets_through, 20);
     suite_add_loop(suite, "by the rule", jumps_and_clipped_samples_by_the_rule, 15);
+    suite_add_loop(suite, "taken", what_is_taken_is_what_is_pushed, 3);
+    suite_add(suite, "none taken", nothing_is_taken_from_nowhere);
     suite_add(suite, "save", saved_it_goes_on_the_same);
     suite_add(suite, "refusals", refusals);
     return suite;
