@@ -188,12 +188,13 @@ INSOLE_FLAT bool insole_cloud_resample_work(insole_cloud_comb_t *comb, const ins
 
 /* ---- the past ---- */
 
-void insole_cloud_remember(const insole_cloud_t *cloud, uint32_t particle, uint32_t stride)
+void insole_cloud_remember(const insole_cloud_t *cloud, uint32_t first, uint32_t end,
+                           uint32_t stride)
 {
-    if (cloud->past_strides > 0) {
-        insole_spot_t *past = &past_of(cloud, particle)[stride % cloud->past_strides];
-        past->x_m = cloud->particles[particle].x_m;
-        past->y_m = cloud->particles[particle].y_m;
+    for (uint32_t i = first; i < end && cloud->past_strides > 0; i++) {
+        insole_spot_t *past = &past_of(cloud, i)[stride % cloud->past_strides];
+        past->x_m = cloud->particles[i].x_m;
+        past->y_m = cloud->particles[i].y_m;
     }
 }
 
