@@ -191,21 +191,23 @@ INSOLE_COLD insole_cloud_aside_t insole_cloud_source_aside(const insole_cloud_so
     return aside;
 }
 
-/* Evenly to either side. */
-static insole_real_t even_within(insole_real_t most, insole_rng_t *rng)
+/* Evenly to either side: the middle of one of 1024 parts. */
+static insole_real_t even_within(insole_real_t most, uint32_t bits)
 {
-    return most * (INSOLE_R(2.0) * insole_rng_uniform(rng) - ONE);
+    insole_real_t part = (insole_real_t)(bits & 1023u) + HALF;
+    return most * (part * INSOLE_R(0.001953125) - ONE);
 }
 
 void insole_cloud_source_spread(const insole_cloud_aside_t *aside, insole_particle_t *particle,
                                 const insole_floor_plan_t *plan, insole_rng_t *rng)
 {
-    insole_real_t x = particle->x_m + even_within(aside->x_m, rng);
-    insole_real_t y = particle->y_m + even_within(aside->y_m, rng);
+    uint32_t bits = insole_rng_bits(rng);
+    insole_real_t x = particle->x_m + even_within(aside->x_m, bits >> 22);
+    insole_real_t y = particle->y_m + even_within(aside->y_m, bits >> 12);
     if (!plan || !insole_floor_plan_crosses(plan, particle->x_m, particle->y_m, x, y)) {
         particle->x_m = x;
         particle->y_m = y;
     }
     particle->offset_rad =
-        insole_wrap_near(particle->offset_rad + even_within(aside->offset_rad, rng));
+        insole_wrap_near(particle->offset_rad + even_within(aside->offset_rad, bits >> 2));
 }

@@ -100,7 +100,7 @@ void insole_cloud_resample_begin(insole_cloud_comb_t *comb, const insole_cloud_s
 }
 
 /* Teeth that lie before the weight passed so far: at shift, 1 + shift, 2 + shift, ... */
-static uint32_t teeth_passed(const insole_cloud_comb_t *comb, uint32_t count)
+static inline uint32_t teeth_passed(const insole_cloud_comb_t *comb, uint32_t count)
 {
     insole_real_t spacings = comb->passed * comb->per_tooth;
     if (!(spacings < (insole_real_t)count)) {
@@ -111,7 +111,7 @@ static uint32_t teeth_passed(const insole_cloud_comb_t *comb, uint32_t count)
 }
 
 /* Puts the number of copies in the place of the weight. */
-static void count_copies(insole_cloud_comb_t *comb, const insole_cloud_t *cloud)
+static inline void count_copies(insole_cloud_comb_t *comb, const insole_cloud_t *cloud)
 {
     insole_particle_t *particle = &cloud->particles[comb->next];
     insole_real_t weight = weight_of(particle, comb->heaviest);
@@ -151,7 +151,7 @@ static void copy_rows(const insole_cloud_t *cloud, uint32_t to, uint32_t from)
 
 /* Gives a copy to a place without one, or looks one place further. Ends with one everywhere, hence
  * with equal weights. */
-static void copy_one(insole_cloud_comb_t *comb, const insole_cloud_t *cloud)
+static inline void copy_one(insole_cloud_comb_t *comb, const insole_cloud_t *cloud)
 {
     insole_particle_t *place = &cloud->particles[comb->next];
     insole_particle_t *source = &cloud->particles[comb->source];
@@ -167,29 +167,34 @@ static void copy_one(insole_cloud_comb_t *comb, const insole_cloud_t *cloud)
     }
 }
 
-bool insole_cloud_resample_work(insole_cloud_comb_t *comb, const insole_cloud_t *cloud,
-                                uint32_t *budget)
+INSOLE_FLAT bool insole_cloud_resample_work(insole_cloud_comb_t *comb, const insole_cloud_t *cloud,
+                                            uint32_t *budget)
 {
-    for (; *budget > 0 && comb->counting; --*budget) {
-        count_copies(comb, cloud);
-        if (comb->next == cloud->count) {
-            begin_copying(comb, cloud);
+    insole_cloud_comb_t own = *comb; /* in registers */
+    uint32_t left = *budget;
+    for (; left > 0 && own.counting; left--) {
+        count_copies(&own, cloud);
+        if (own.next == cloud->count) {
+            begin_copying(&own, cloud);
         }
     }
-    for (; *budget > 0 && comb->next < cloud->count; --*budget) {
-        copy_one(comb, cloud);
+    for (; left > 0 && own.next < cloud->count; left--) {
+        copy_one(&own, cloud);
     }
-    return comb->counting || comb->next < cloud->count;
+    *comb = own;
+    *budget = left;
+    return own.counting || own.next < cloud->count;
 }
 
 /* ---- the past ---- */
 
-void insole_cloud_remember(const insole_cloud_t *cloud, uint32_t particle, uint32_t stride)
+void insole_cloud_remember(const insole_cloud_t *cloud, uint32_t first, uint32_t end,
+                           uint32_t stride)
 {
-    if (cloud->past_strides > 0) {
-        insole_spot_t *past = &past_of(cloud, particle)[stride % cloud->past_strides];
-        past->x_m = cloud->particles[particle].x_m;
-        past->y_m = cloud->particles[particle].y_m;
+    for (uint32_t i = first; i < end && cloud->past_strides > 0; i++) {
+        insole_spot_t *past = &past_of(cloud, i)[stride % cloud->past_strides];
+        past->x_m = cloud->particles[i].x_m;
+        past->y_m = cloud->particles[i].y_m;
     }
 }
 

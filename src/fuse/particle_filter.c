@@ -232,8 +232,8 @@ static void finish(insole_particle_filter_t *filter, const insole_cloud_t *cloud
             particle->log_weight = insole_particle_lives(particle) ? filter->weighing.common_log
                                                                    : INSOLE_PARTICLE_DEAD;
         }
-        insole_cloud_remember(cloud, i, filter->since_start);
     }
+    insole_cloud_remember(cloud, first, end, filter->since_start);
 }
 
 /* ---- the work ---- */

@@ -44,9 +44,10 @@ insole_status_t insole_wall_losses_limit(insole_wall_losses_t *losses, insole_re
     if (!losses) {
         return INSOLE_ERR_NULL;
     }
-    if (!(limit_db >= ZERO && limit_db <= INSOLE_WALL_LOSSES_MOST_DB)) {
+    if (!(limit_db >= ZERO)) {
         return INSOLE_ERR_VALUE;
     }
+    limit_db = insole_min(limit_db, INSOLE_WALL_LOSSES_MOST_DB);
     if (limit_db >= losses->limit_db && limit_db <= losses->limit_db) {
         return INSOLE_OK;
     }

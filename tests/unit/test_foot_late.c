@@ -52,7 +52,7 @@ static void stride(uint32_t number, double complex n, double complex m)
         insole_spot_t s = spot(i == 0 ? m - aside : m + aside);
         particles[i].x_m = s.x_m;
         particles[i].y_m = s.y_m;
-        insole_cloud_remember(&cloud, i, number);
+        insole_cloud_remember(&cloud, i, i + 1u, number);
     }
     filter.since_start = number;
     filter.counts.strides++;

@@ -567,9 +567,9 @@ END_TEST
 
 static void remember(uint32_t stride)
 {
-    for (uint32_t i = 0; i < cloud.count; i++) {
-        insole_cloud_remember(&cloud, i, stride);
-    }
+    uint32_t half = cloud.count / 2u;
+    insole_cloud_remember(&cloud, 0, half, stride);
+    insole_cloud_remember(&cloud, half, cloud.count, stride);
 }
 
 /* Places are the particle's number and the stride's; a copy has the past of its source. */

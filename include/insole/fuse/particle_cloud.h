@@ -174,8 +174,10 @@ void insole_cloud_resample_begin(insole_cloud_comb_t *comb, const insole_cloud_s
 bool insole_cloud_resample_work(insole_cloud_comb_t *comb, const insole_cloud_t *cloud,
                                 uint32_t *budget);
 
-/** Keeps where a particle is now as its past in stride number `stride`. */
-void insole_cloud_remember(const insole_cloud_t *cloud, uint32_t particle, uint32_t stride);
+/** Keeps where particles from number `first` on, up to `end`, are now as their past in stride
+ * number `stride`. */
+void insole_cloud_remember(const insole_cloud_t *cloud, uint32_t first, uint32_t end,
+                           uint32_t stride);
 
 /** Where the ancestors of the present cloud were in stride number `stride`, by all known now.
  *  @return INSOLE_ERR_STATE when no past is kept, or no particle lives */

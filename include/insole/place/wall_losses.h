@@ -36,8 +36,8 @@ enum {
 /** Largest coordinate and spacing [m]. */
 #define INSOLE_WALL_LOSSES_REACH_M INSOLE_R(1e5)
 
-/** Largest limit of losses [dB]. */
-#define INSOLE_WALL_LOSSES_MOST_DB INSOLE_R(1000.0)
+/** Nothing is heard through walls that lose more [dB]. */
+#define INSOLE_WALL_LOSSES_MOST_DB INSOLE_R(127.0)
 
 /** Losses of one access point. A node keeps its place in the list for as long as it stays. */
 typedef struct {
@@ -58,10 +58,10 @@ typedef struct {
 insole_status_t insole_wall_losses_init(insole_wall_losses_t *losses);
 
 /** What loses more counts as this limit: walls are counted until it is reached. Losses are kept to
- *  half a step of 1/8 dB, or of the smallest doubling of it of which 254 reach the limit. With
- *  another limit all losses are forgotten.
- *  @param limit_db  0 .. INSOLE_WALL_LOSSES_MOST_DB
- *  @return INSOLE_ERR_VALUE for a limit out of range */
+ *  half a step: of 1/8 dB for limits up to 31.75 dB, of 1/4 dB up to 63.5 dB, beyond of 1/2 dB.
+ * With another limit all losses are forgotten.
+ *  @param limit_db  >= 0; more than INSOLE_WALL_LOSSES_MOST_DB counts as this
+ *  @return INSOLE_ERR_VALUE for what is negative or no number */
 insole_status_t insole_wall_losses_limit(insole_wall_losses_t *losses, insole_real_t limit_db);
 
 /** Lays the lattice so that (x, y) lies within half a spacing of its centre. With another spacing
