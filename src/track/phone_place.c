@@ -269,6 +269,51 @@ INSOLE_COLD insole_status_t insole_phone_place_compass(insole_phone_place_t *pla
                                                     sight->sigma_block_rad));
 }
 
+/* ---- turns ------------------------------------------------------------------------------ */
+
+static insole_real_t apart(insole_real_t a_rad, insole_real_t b_rad)
+{
+    return insole_abs(insole_wrap_pi(a_rad - b_rad));
+}
+
+/* Which of two offsets it is: the one that was learned, or that without the angle. */
+static insole_real_t without_askew(const insole_phone_place_t *p, insole_real_t offset_rad,
+                                   insole_real_t askew_rad)
+{
+    insole_real_t without_rad = insole_wrap_pi(offset_rad - askew_rad);
+    insole_real_t north_rad = p->sight.mean_rad;
+    bool holds_none =
+        p->sight.is_known && apart(offset_rad, north_rad) < apart(without_rad, north_rad);
+    return holds_none ? offset_rad : without_rad;
+}
+
+INSOLE_COLD insole_status_t insole_phone_place_turn(insole_phone_place_t *place, uint64_t t_us,
+                                                    insole_real_t askew_rad)
+{
+    if (!place) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!insole_is_finite(askew_rad)) {
+        return INSOLE_ERR_VALUE;
+    }
+    insole_step_filter_answer_t at;
+    if (!place->is_started) {
+        insole_auto_start_config_t config = place->auto_start.config;
+        return insole_auto_start_init(&place->auto_start, &config, place->auto_start.circles);
+    }
+    if (place->filter.calls->answer(place->filter.state, &at) != INSOLE_OK) {
+        return INSOLE_OK;
+    }
+    const insole_step_filter_begin_t anew = {t_us,
+                                             at.spot,
+                                             insole_spot_cov(at.cov_m2),
+                                             without_askew(place, at.offset_rad, askew_rad),
+                                             at.var_offset_rad2,
+                                             false,
+                                             ZERO};
+    return begin(place, &anew);
+}
+
 /* ---- gaps ------------------------------------------------------------------------------- */
 
 INSOLE_COLD insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_us,
