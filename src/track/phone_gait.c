@@ -185,7 +185,7 @@ static void judge_aside(insole_phone_gait_t *g, insole_phone_walk_t *walk, bool 
 
 /* Takes what one step says; the variance of it weighs. */
 static void learn_askew(insole_phone_gait_t *g, insole_phone_walk_t *walk, insole_real_t device_rad,
-                        const insole_walked_t *walked)
+                        const insole_walked_t *walked, uint64_t begin_us)
 {
     insole_turn_t *sum = &g->askew.sum;
     insole_real_t askew_rad = walked->direction_rad - device_rad;
@@ -201,6 +201,7 @@ static void learn_askew(insole_phone_gait_t *g, insole_phone_walk_t *walk, insol
     insole_turn_t turn = insole_turn(askew_rad);
     sum->cos = g->config.gait_keep * sum->cos + weight * turn.cos;
     sum->sin = g->config.gait_keep * sum->sin + weight * turn.sin;
+    walk->lie.since_us = g->askew.steps == 0u ? begin_us : walk->lie.since_us;
     g->askew.steps++;
     tell_askew(g, walk);
     judge_aside(g, walk, walked->is_certain);
@@ -216,7 +217,7 @@ static bool gait_step(void *state, insole_phone_walk_t *walk, const insole_footf
         insole_phone_way_direction(&walk->way, footfall, &device_rad) != INSOLE_OK) {
         return true;
     }
-    learn_askew(g, walk, device_rad, &walked);
+    learn_askew(g, walk, device_rad, &walked, footfall->begin_us);
     if (walk->lie.is_askew && g->config.gait == 1) {
         pace->heading_rad = walked.direction_rad; /* [PhoneUKF (38)] */
         pace->var_heading_rad2 = walked.is_certain ? walked.variance_rad2 : INSOLE_HEADING_MOST_R2;
