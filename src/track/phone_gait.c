@@ -8,6 +8,7 @@
 
 #define ZERO INSOLE_R(0.0)
 #define ONE  INSOLE_R(1.0)
+#define HALF INSOLE_R(0.5)
 
 enum { FACES_ANY = 1, FACES_CARRIED = 2 };
 
@@ -69,13 +70,6 @@ static void tell_askew(const insole_phone_gait_t *g, insole_phone_walk_t *walk)
     lie->var_rad2 = variance_of(sum, g->config.sigma_gait_rad);
 }
 
-static void forget_askew(insole_phone_gait_t *g, insole_phone_walk_t *walk)
-{
-    g->askew.sum = nothing;
-    g->askew.up = g->up;
-    tell_askew(g, walk);
-}
-
 /* That of the position where it is asked and has one; else 1. */
 static insole_real_t of_position(int32_t position, insole_real_t ear, insole_real_t swing,
                                  insole_real_t pocket)
@@ -98,11 +92,21 @@ static void tell_position(const insole_phone_gait_t *g, insole_phone_walk_t *wal
     insole_phone_lie_t *lie = &walk->lie;
     lie->position = g->carry && g->forest ? g->carry->told : INSOLE_CARRY_NONE;
     bool is_asked = c->faces == FACES_CARRIED;
-    bool is_aside = is_asked && lie->position >= 0 && lie->position != c->ahead_position;
-    lie->is_askew = g->heading && (c->faces == FACES_ANY || is_aside);
+    bool is_known = is_asked && lie->position >= 0;
+    bool is_ahead = is_known && lie->position == c->ahead_position;
+    lie->is_aside = is_ahead && g->askew.is_aside;
+    lie->is_askew =
+        g->heading && (c->faces == FACES_ANY || lie->is_aside || (is_known && !is_ahead));
     int32_t position = is_asked ? lie->position : INSOLE_CARRY_NONE;
     lie->length = of_position(position, c->length_ear, c->length_swing, c->length_pocket);
     lie->rise = of_position(position, c->rise_ear, c->rise_swing, c->rise_pocket);
+}
+
+static void forget_askew(insole_phone_gait_t *g, insole_phone_walk_t *walk)
+{
+    g->askew = (insole_phone_askew_t){.sum = nothing, .up = g->up};
+    tell_askew(g, walk);
+    tell_position(g, walk);
 }
 
 static void gait_begin(void *state, insole_phone_walk_t *walk)
@@ -110,7 +114,6 @@ static void gait_begin(void *state, insole_phone_walk_t *walk)
     insole_phone_gait_t *g = state;
     g->up = insole_vec3_zero();
     forget_askew(g, walk);
-    tell_position(g, walk);
 }
 
 static bool gait_work(void *state, insole_phone_walk_t *walk)
@@ -126,7 +129,6 @@ static bool gait_work(void *state, insole_phone_walk_t *walk)
     }
     if (news.told != before) {
         forget_askew(g, walk);
-        tell_position(g, walk);
     }
     return true;
 }
@@ -167,9 +169,23 @@ static void gait_push(void *state, insole_phone_walk_t *walk, const insole_attit
 
 /* ---- steps ------------------------------------------------------------------------------ */
 
+/* Many steps and a certain end are asked: real hands that point ahead are never judged aside. */
+static void judge_aside(insole_phone_gait_t *g, insole_phone_walk_t *walk, bool is_certain)
+{
+    const insole_phone_gait_config_t *c = &g->config;
+    insole_real_t off_rad = insole_abs(walk->lie.askew_rad);
+    bool was_aside = g->askew.is_aside;
+    bool is_aside =
+        is_certain && off_rad > c->aside_rad && g->askew.steps >= (uint32_t)c->aside_steps;
+    g->askew.is_aside = was_aside ? off_rad > HALF * c->aside_rad : is_aside;
+    if (g->askew.is_aside != was_aside) {
+        tell_position(g, walk);
+    }
+}
+
 /* Takes what one step says; the variance of it weighs. */
 static void learn_askew(insole_phone_gait_t *g, insole_phone_walk_t *walk, insole_real_t device_rad,
-                        const insole_walked_t *walked)
+                        const insole_walked_t *walked, uint64_t begin_us)
 {
     insole_turn_t *sum = &g->askew.sum;
     insole_real_t askew_rad = walked->direction_rad - device_rad;
@@ -179,12 +195,16 @@ static void learn_askew(insole_phone_gait_t *g, insole_phone_walk_t *walk, insol
             return;
         }
         *sum = nothing;
+        g->askew.steps = 0u;
     }
     insole_real_t weight = ONE / (walked->variance_rad2 + INSOLE_R(1.0e-3));
     insole_turn_t turn = insole_turn(askew_rad);
     sum->cos = g->config.gait_keep * sum->cos + weight * turn.cos;
     sum->sin = g->config.gait_keep * sum->sin + weight * turn.sin;
+    walk->lie.since_us = g->askew.steps == 0u ? begin_us : walk->lie.since_us;
+    g->askew.steps++;
     tell_askew(g, walk);
+    judge_aside(g, walk, walked->is_certain);
 }
 
 static bool gait_step(void *state, insole_phone_walk_t *walk, const insole_footfall_t *footfall,
@@ -197,7 +217,7 @@ static bool gait_step(void *state, insole_phone_walk_t *walk, const insole_footf
         insole_phone_way_direction(&walk->way, footfall, &device_rad) != INSOLE_OK) {
         return true;
     }
-    learn_askew(g, walk, device_rad, &walked);
+    learn_askew(g, walk, device_rad, &walked, footfall->begin_us);
     if (walk->lie.is_askew && g->config.gait == 1) {
         pace->heading_rad = walked.direction_rad; /* [PhoneUKF (38)] */
         pace->var_heading_rad2 = walked.is_certain ? walked.variance_rad2 : INSOLE_HEADING_MOST_R2;

@@ -13,6 +13,9 @@ const insole_phone_place_config_t insole_phone_place_defaults = {
     INSOLE_PHONE_PLACE_KEYS(INSOLE_CONFIG_DEFAULT)};
 
 /* Of a place that is so by definition. */
+/* 1-sigma of a way that is walked anew, as a share of what that shifts it. */
+static const insole_real_t ANEW_SHARE = INSOLE_R(0.3);
+
 static const insole_real_t LEAST_SIGMA_M = INSOLE_R(0.001);
 
 static bool is_whole(const insole_step_filter_t *filter)
@@ -267,6 +270,60 @@ INSOLE_COLD insole_status_t insole_phone_place_compass(insole_phone_place_t *pla
     }
     return note(place, place->filter.calls->compass(place->filter.state, sight->block_rad,
                                                     sight->sigma_block_rad));
+}
+
+/* ---- turns ------------------------------------------------------------------------------ */
+
+static insole_real_t apart(insole_real_t a_rad, insole_real_t b_rad)
+{
+    return insole_abs(insole_wrap_pi(a_rad - b_rad));
+}
+
+/* Does the compass say that the offset is right as it is? */
+static bool is_north(const insole_phone_place_t *p, insole_real_t offset_rad,
+                     insole_real_t askew_rad)
+{
+    insole_real_t north_rad = p->sight.mean_rad;
+    return p->sight.is_known &&
+           apart(offset_rad, north_rad) < apart(offset_rad - askew_rad, north_rad);
+}
+
+/* The end of the way once it goes `askew_rad` aside; known so much worse. */
+static void walk_anew(insole_step_filter_begin_t *at, insole_spot_t way, insole_real_t askew_rad)
+{
+    insole_spot_t old = insole_turn_way(insole_turn(at->offset_rad), way);
+    insole_spot_t shift = insole_spot_sub(insole_turn_way(insole_turn(askew_rad), old), old);
+    at->spot = insole_spot_add(at->spot, shift);
+    insole_real_t more_m2 = insole_square(ANEW_SHARE) * insole_spot_dot(shift, shift);
+    at->cov_m2 = insole_spot_cov(insole_sym2_add(at->cov_m2, insole_sym2_circle(more_m2)));
+}
+
+INSOLE_COLD insole_status_t insole_phone_place_turn(insole_phone_place_t *place, uint64_t t_us,
+                                                    insole_real_t askew_rad, insole_spot_t way)
+{
+    if (!place) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!insole_is_finite(askew_rad) || !insole_spot_is_finite(way)) {
+        return INSOLE_ERR_VALUE;
+    }
+    insole_step_filter_answer_t now;
+    if (!place->is_started) {
+        insole_auto_start_config_t config = place->auto_start.config;
+        return insole_auto_start_init(&place->auto_start, &config, place->auto_start.circles);
+    }
+    if (place->filter.calls->answer(place->filter.state, &now) != INSOLE_OK) {
+        return INSOLE_OK;
+    }
+    insole_step_filter_begin_t anew = {
+        t_us,  now.spot, insole_spot_cov(now.cov_m2), now.offset_rad, now.var_offset_rad2,
+        false, ZERO};
+    if (is_north(place, now.offset_rad, askew_rad)) {
+        walk_anew(&anew, way, askew_rad);
+    } else {
+        anew.offset_rad = insole_wrap_pi(now.offset_rad - askew_rad);
+    }
+    return begin(place, &anew);
 }
 
 /* ---- gaps ------------------------------------------------------------------------------- */

@@ -82,15 +82,43 @@ static void direct_start(insole_phone_tracker_t *t)
     }
 }
 
+static void note_starts(insole_phone_tracker_t *t)
+{
+    if (t->place.starts != t->starts) {
+        t->starts = t->place.starts;
+        t->trusts_pointing = !t->walk.lie.is_askew;
+    }
+}
+
+/* A phone that was taken to point ahead points aside. */
+INSOLE_COLD static void turn_aside(insole_phone_tracker_t *t, uint64_t t_us,
+                                   const insole_pace_t *pace)
+{
+    const insole_phone_lie_t *lie = &t->walk.lie;
+    if (t->trusts_pointing || !t->place.is_started) {
+        insole_spot_t way = insole_phone_way_since(&t->walk.way, lie->since_us);
+        way = insole_spot_sub(way, insole_pace_way(pace, ZERO));
+        (void)insole_phone_place_turn(&t->place, t_us, lie->askew_rad, way);
+    }
+    t->starts = t->place.starts;
+    t->trusts_pointing = false;
+}
+
 INSOLE_APART static void count_steps(insole_phone_tracker_t *t, const insole_imu_t *imu)
 {
     insole_footfall_t footfall;
     insole_pace_t pace;
+    note_starts(t);
     (void)insole_phone_walk_push(&t->walk, &t->attitude, imu);
+    bool was_aside = t->walk.lie.is_aside;
     while (insole_phone_walk_next(&t->walk, &footfall, &pace) == INSOLE_OK) {
         t->coasting = false;
         t->counts.steps++;
         if (has_filter(&t->parts)) {
+            if (t->walk.lie.is_aside && !was_aside) {
+                turn_aside(t, footfall.end_us, &pace);
+            }
+            was_aside = t->walk.lie.is_aside;
             (void)insole_phone_place_step(&t->place, footfall.end_us, &pace);
         }
     }

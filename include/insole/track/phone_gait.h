@@ -39,6 +39,9 @@ extern "C" {
     KEY(REAL, gait_keep, 0.93, 0.0, 0.999, "", "kept from step to step of that mean")             \
     KEY(REAL, sigma_gait_rad, 0.1, 0.0, 3.0, "rad", "1-sigma of the best mean")                   \
     KEY(REAL, tipped_rad, 0.9, 0.1, 3.2, "rad", "a phone tipped over by so much is carried anew") \
+    KEY(INT, aside_steps, 10, 1, 1000, "steps",                                                   \
+        "a phone in the hand lies askew when so many steps go aside of where it points")          \
+    KEY(REAL, aside_rad, 0.8, 0.1, 3.2, "rad", "aside: farther off; 3.2 = never")                 \
     KEY(INT, ahead_position, 0, -1, 7, "",                                                        \
         "carrying position in which a phone points ahead, by its number in the table; -1 = none") \
     KEY(REAL, length_ear, 1.08, 0.2, 5.0, "",                                                     \
@@ -61,6 +64,8 @@ extern const insole_phone_gait_config_t insole_phone_gait_defaults;
 typedef struct {
     insole_turn_t sum; /**< weighted by what each step knew of it; 0, 0: nothing is known */
     insole_vec3_t up;  /**< b, of unit length: as the phone lay while it was learned */
+    uint32_t steps;    /**< that told it */
+    bool is_aside;     /**< so many of them that it is far off */
 } insole_phone_askew_t;
 
 typedef struct {

@@ -131,6 +131,14 @@ insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole
  *  @return INSOLE_ERR_NULL, or as the filter answers */
 insole_status_t insole_phone_place_compass(insole_phone_place_t *place);
 
+/** Steps go by `askew_rad` aside of where they were taken to go until now: the phone points aside.
+ *  An offset that was learned by them holds that angle; if the compass says otherwise, `way` was
+ *  turned wrongly and is walked anew. A search begins anew.
+ *  @param way  n, of the steps that have gone aside until now
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for an angle or a way that is not finite */
+insole_status_t insole_phone_place_turn(insole_phone_place_t *place, uint64_t t_us,
+                                        insole_real_t askew_rad, insole_spot_t way);
+
 /** Nothing is known of so long a time: the filter is started anew where it is, less certain.
  *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a time that is negative or not finite */
 insole_status_t insole_phone_place_gap(insole_phone_place_t *place, uint64_t t_us,

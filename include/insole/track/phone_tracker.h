@@ -77,7 +77,9 @@ typedef struct {
     insole_phone_radio_t radio;
     insole_phone_place_t place; /**< unless there is no filter */
 
-    uint64_t t_us; /**< of the newest clean sample */
+    uint64_t t_us;        /**< of the newest clean sample */
+    uint32_t starts;      /**< of the filter, when they were looked at last */
+    bool trusts_pointing; /**< the last was directed by a phone that was taken to point ahead */
     bool has_time, coasting, finished;
     insole_fix_t fix; /**< newest, until taken */
     bool has_fix;

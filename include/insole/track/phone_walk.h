@@ -54,9 +54,11 @@ enum { INSOLE_PHONE_NO_POSITION = -1 };
 /** How the phone lies on its walker, as far as somebody knows. */
 typedef struct {
     bool is_askew;              /**< steps go by what is here; else where the phone points */
+    bool is_aside;              /**< so although phones point ahead in this position */
     bool is_known;              /**< there is a direction, if so */
     insole_real_t askew_rad;    /**< from where the phone points to where its walker goes */
     insole_turn_t askew;        /**< that angle */
+    uint64_t since_us;          /**< begin of the first step that told it */
     insole_real_t var_rad2;     /**< of it */
     int32_t position;           /**< or INSOLE_PHONE_NO_POSITION */
     insole_real_t length, rise; /**< times that of a phone in the hand, of a step */
