@@ -67,6 +67,7 @@ static void set_up_stroll(int32_t faces)
     gait_config = insole_phone_gait_defaults;
     gait_config.faces = faces;
     gait_config.gait = 0;
+    gait_config.aside_rad = INSOLE_R(3.2);
     ck_assert_int_eq(insole_attitude_init(&attitude, &insole_attitude_defaults), INSOLE_OK);
     attitude.aligned = true;
 }
@@ -332,6 +333,64 @@ START_TEST(the_position_tells_whether_the_gait_is_asked)
 }
 END_TEST
 
+static void stroll_in_hand(double aside_rad, int32_t aside_steps)
+{
+    set_up_stroll(2);
+    gait_config.aside_rad = INSOLE_R(0.8);
+    gait_config.aside_steps = aside_steps;
+    begin_stroll(true);
+    stroll.mounting = mounting(aside_rad, 0.3);
+    stroll.bounce_m = GENTLE_BOUNCE_M;
+    stroll_until(GENTLE);
+}
+
+/* Not before so many steps, counted from where the position was told. */
+START_TEST(a_phone_held_across_in_the_hand_is_noticed)
+{
+    const int32_t aside_steps = _i == 0 ? 3 : 10;
+    stroll_in_hand(_i < 2 ? ASIDE_RAD : -ASIDE_RAD, aside_steps);
+    uint32_t begin = step_count, now = begin;
+    uint64_t begin_us = walk.t_us;
+    for (int i = 0; i < 10 * STROLL_RATE_HZ; i++) {
+        (void)stroll_once();
+        now = walk.lie.is_aside ? now : step_count;
+    }
+    ck_assert(walk.lie.is_aside && walk.lie.is_askew);
+    ck_assert_int_ge((int32_t)(now - begin), aside_steps - 1);
+    ck_assert_int_le((int32_t)(now - begin), aside_steps + 4); /* the end is to be certain, too */
+    ck_assert(walk.lie.since_us + 1000000u > begin_us && walk.lie.since_us < walk.t_us);
+    expect_off(begin, begin + (uint32_t)aside_steps - 1u, _i < 2 ? ASIDE_RAD : -ASIDE_RAD, 1e-3);
+    expect_off(now + 1u, step_count, 0.0, 0.2);
+}
+END_TEST
+
+START_TEST(a_phone_that_points_nearly_ahead_points_ahead)
+{
+    const double aside_rad = _i == 0 ? 0.5 : -0.6;
+    stroll_in_hand(aside_rad, 3);
+    stroll_on(12.0);
+    ck_assert(!walk.lie.is_aside && !walk.lie.is_askew);
+    expect_off(0u, step_count, aside_rad, 1e-3);
+}
+END_TEST
+
+START_TEST(held_across_in_another_way_it_points_ahead_again)
+{
+    stroll_in_hand(ASIDE_RAD, 5);
+    stroll_on(8.0);
+    ck_assert(walk.lie.is_aside);
+    stroll.mounting = mounting(0.0, 1.7);
+    bool forgot = false;
+    for (int i = 0; i < 3 * STROLL_RATE_HZ; i++) {
+        (void)stroll_once();
+        forgot = forgot || !walk.lie.is_aside;
+    }
+    ck_assert(forgot);
+    stroll_on(8.0);
+    ck_assert(!walk.lie.is_aside);
+}
+END_TEST
+
 START_TEST(until_a_position_is_told_the_phone_points_ahead)
 {
     set_up_stroll(2);
@@ -488,6 +547,9 @@ Suite *insole_suite(void)
                    (int)(sizeof tips / sizeof tips[0]));
     suite_add(suite, "first step", the_first_step_has_a_direction_however_the_phone_points);
     suite_add(suite, "turned round", a_phone_turned_round_is_learned_anew);
+    suite_add_loop(suite, "across", a_phone_held_across_in_the_hand_is_noticed, 3);
+    suite_add_loop(suite, "nearly ahead", a_phone_that_points_nearly_ahead_points_ahead, 2);
+    suite_add(suite, "across no more", held_across_in_another_way_it_points_ahead_again);
     suite_add(suite, "position", the_position_tells_whether_the_gait_is_asked);
     suite_add(suite, "no position yet", until_a_position_is_told_the_phone_points_ahead);
     suite_add_loop(suite, "told", what_is_told_counts_more_than_the_position, 4);

@@ -726,6 +726,80 @@ START_TEST(gaps_that_are_none_are_refused)
 }
 END_TEST
 
+/* ---- turns ------------------------------------------------------------------------------- */
+
+static void set_up_to_turn(void)
+{
+    set_up_started(&plain);
+    fake.at.spot = insole_spot(INSOLE_R(11.0), INSOLE_R(12.0));
+    fake.at.cov_m2 = insole_sym2(INSOLE_R(4.0), INSOLE_R(1.0), INSOLE_R(9.0));
+    fake.at.offset_rad = INSOLE_R(0.3);
+    fake.at.var_offset_rad2 = INSOLE_R(0.02);
+}
+
+static insole_status_t turn(double askew_rad, double x_m, double y_m)
+{
+    return insole_phone_place_turn(&place, 20000000u, (insole_real_t)askew_rad,
+                                   insole_spot((insole_real_t)x_m, (insole_real_t)y_m));
+}
+
+/* The heading that was told made the offset: what was walked is right. */
+START_TEST(an_offset_that_steps_made_holds_the_angle)
+{
+    const double askew_rad = _i == 0 ? 1.5 : -2.0;
+    set_up_to_turn();
+    if (_i == 1) {
+        see(0.0, 0.2 - askew_rad, 0.2);
+    }
+    ck_assert_int_eq(turn(askew_rad, 4.0, 1.0), INSOLE_OK);
+    ck_assert_uint_eq(fake.started, 2u);
+    ASSERT_BEGAN(20.0, 11.0, 12.0, 0.3 - askew_rad, 0.02);
+    ASSERT_NEAR(fake.begin.cov_m2.xx, 4.0, 1e-6, "m^2");
+    ck_assert(!fake.begin.from_radio);
+}
+END_TEST
+
+/* The compass made it: what was walked went astray. */
+START_TEST(a_way_that_went_astray_is_walked_anew)
+{
+    const double askew_rad = _i == 0 ? 1.5 : -2.0;
+    set_up_to_turn();
+    see(0.0, 0.4, 0.2);
+    ck_assert_int_eq(turn(askew_rad, 4.0, 1.0), INSOLE_OK);
+    double c = cos(0.3), s = sin(0.3), ca = cos(0.3 + askew_rad), sa = sin(0.3 + askew_rad);
+    double x = (4.0 * ca - sa) - (4.0 * c - s), y = (4.0 * sa + ca) - (4.0 * s + c);
+    ASSERT_BEGAN(20.0, 11.0 + x, 12.0 + y, 0.3, 0.02);
+    ASSERT_NEAR(fake.begin.cov_m2.xx, 4.0 + 0.09 * (x * x + y * y), 1e-4, "m^2");
+    ASSERT_NEAR(fake.begin.cov_m2.xy, 1.0, 1e-6, "m^2");
+    ASSERT_NEAR(fake.begin.cov_m2.yy, 9.0 + 0.09 * (x * x + y * y), 1e-4, "m^2");
+}
+END_TEST
+
+START_TEST(a_search_begins_anew)
+{
+    set_up(&plain, true);
+    insole_auto_start_t fresh = place.auto_start;
+    ck_assert_int_eq(step(1.0, 0.2), INSOLE_OK);
+    ck_assert_int_eq(hear(2.0, 5.0, 6.0), INSOLE_OK);
+    ck_assert(memcmp(&fresh, &place.auto_start, sizeof fresh) != 0);
+    ck_assert_int_eq(turn(1.0, 4.0, 1.0), INSOLE_OK);
+    ck_assert_uint_eq(fake.started, 0u);
+    ck_assert_mem_eq(&fresh, &place.auto_start, sizeof fresh);
+}
+END_TEST
+
+START_TEST(turns_that_are_none_are_refused)
+{
+    set_up_to_turn();
+    ASSERT_UNCHANGED(place, turn((double)NAN, 1.0, 1.0), INSOLE_ERR_VALUE);
+    ASSERT_UNCHANGED(place, turn(1.0, (double)INFINITY, 1.0), INSOLE_ERR_VALUE);
+    ASSERT_UNCHANGED(place, turn(1.0, 1.0, (double)NAN), INSOLE_ERR_VALUE);
+    ck_assert_int_eq(insole_phone_place_turn(NULL, 1u, INSOLE_R(1.0), fake.at.spot),
+                     INSOLE_ERR_NULL);
+    ck_assert_uint_eq(fake.started, 1u);
+}
+END_TEST
+
 /* ---- bad input --------------------------------------------------------------------------- */
 
 START_TEST(starts_that_are_none_are_refused)
@@ -896,6 +970,10 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "endless gap", gaps_as_long_as_they_may_be_leave_a_covariance, 4);
     suite_add(suite, "gap too soon", before_the_start_a_gap_hides_nothing);
     suite_add_loop(suite, "bad gap", gaps_that_are_none_are_refused, 3);
+    suite_add_loop(suite, "turn of the offset", an_offset_that_steps_made_holds_the_angle, 2);
+    suite_add_loop(suite, "turn of the way", a_way_that_went_astray_is_walked_anew, 2);
+    suite_add(suite, "turn in a search", a_search_begins_anew);
+    suite_add(suite, "bad turns", turns_that_are_none_are_refused);
     suite_add_loop(suite, "bad starts", starts_that_are_none_are_refused, 10);
     suite_add(suite, "heading not told", a_heading_that_is_not_told_may_be_anything);
     suite_add_loop(suite, "lacking filter", filters_that_lack_a_part_are_refused, 6);
