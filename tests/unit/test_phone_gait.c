@@ -347,7 +347,7 @@ static void stroll_in_hand(double aside_rad, int32_t aside_steps)
 /* Not before so many steps, counted from where the position was told. */
 START_TEST(a_phone_held_across_in_the_hand_is_noticed)
 {
-    const int32_t aside_steps = _i == 0 ? 3 : 10;
+    const int32_t aside_steps = _i == 0 ? 7 : 12;
     stroll_in_hand(_i < 2 ? ASIDE_RAD : -ASIDE_RAD, aside_steps);
     uint32_t begin = step_count, now = begin;
     uint64_t begin_us = walk.t_us;
