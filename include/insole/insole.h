@@ -109,6 +109,7 @@
 #include "insole/track/fusion_radio.h"
 #include "insole/track/fusion_start.h"
 #include "insole/track/fusion_strides.h"
+#include "insole/track/phone_aside.h"
 #include "insole/track/phone_compass.h"
 #include "insole/track/phone_config.h"
 #include "insole/track/phone_gait.h"

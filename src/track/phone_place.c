@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "insole/track/foot_anchor.h"
+#include "insole/track/phone_aside.h"
 
 #define ZERO INSOLE_R(0.0)
 #define HALF INSOLE_R(0.5)
@@ -13,9 +14,6 @@ const insole_phone_place_config_t insole_phone_place_defaults = {
     INSOLE_PHONE_PLACE_KEYS(INSOLE_CONFIG_DEFAULT)};
 
 /* Of a place that is so by definition. */
-/* 1-sigma of a way that is walked anew, as a share of what that shifts it. */
-static const insole_real_t ANEW_SHARE = INSOLE_R(0.3);
-
 static const insole_real_t LEAST_SIGMA_M = INSOLE_R(0.001);
 
 static bool is_whole(const insole_step_filter_t *filter)
@@ -92,6 +90,28 @@ static insole_status_t begin(insole_phone_place_t *p, const insole_step_filter_b
     return note(p, status);
 }
 
+/* Where the filter is now, to be begun anew there; false when nobody knows. */
+static bool is_somewhere(const insole_phone_place_t *p, uint64_t t_us,
+                         insole_step_filter_begin_t *anew)
+{
+    insole_step_filter_answer_t now;
+    if (!p->is_started || p->filter.calls->answer(p->filter.state, &now) != INSOLE_OK) {
+        return false;
+    }
+    *anew = (insole_step_filter_begin_t){.t_us = t_us,
+                                         .spot = now.spot,
+                                         .cov_m2 = insole_spot_cov(now.cov_m2),
+                                         .offset_rad = now.offset_rad,
+                                         .var_offset_rad2 = now.var_offset_rad2};
+    return true;
+}
+
+static insole_status_t search_anew(insole_phone_place_t *p)
+{
+    insole_auto_start_config_t config = p->auto_start.config;
+    return insole_auto_start_init(&p->auto_start, &config, p->auto_start.circles);
+}
+
 static insole_status_t walk(insole_phone_place_t *p, uint64_t t_us, const insole_pace_t *pace)
 {
     return note(p, p->filter.calls->step(p->filter.state, t_us, pace));
@@ -146,8 +166,7 @@ static insole_status_t begin_undirected(insole_phone_place_t *p, uint64_t t_us)
     p->has_start = false;
     if (!p->sight.is_known && !learns_offset(p) && p->has_radio) {
         insole_spot_fix_t fix = {t_us, at.spot, at.cov_m2, {ZERO, ZERO}};
-        insole_auto_start_config_t config = p->auto_start.config;
-        (void)insole_auto_start_init(&p->auto_start, &config, p->auto_start.circles);
+        (void)search_anew(p);
         p->is_started = false;
         return insole_auto_start_fix(&p->auto_start, &fix);
     }
@@ -274,30 +293,6 @@ INSOLE_COLD insole_status_t insole_phone_place_compass(insole_phone_place_t *pla
 
 /* ---- turns ------------------------------------------------------------------------------ */
 
-static insole_real_t apart(insole_real_t a_rad, insole_real_t b_rad)
-{
-    return insole_abs(insole_wrap_pi(a_rad - b_rad));
-}
-
-/* Does the compass say that the offset is right as it is? */
-static bool is_north(const insole_phone_place_t *p, insole_real_t offset_rad,
-                     insole_real_t askew_rad)
-{
-    insole_real_t north_rad = p->sight.mean_rad;
-    return p->sight.is_known &&
-           apart(offset_rad, north_rad) < apart(offset_rad - askew_rad, north_rad);
-}
-
-/* The end of the way once it goes `askew_rad` aside; known so much worse. */
-static void walk_anew(insole_step_filter_begin_t *at, insole_spot_t way, insole_real_t askew_rad)
-{
-    insole_spot_t old = insole_turn_way(insole_turn(at->offset_rad), way);
-    insole_spot_t shift = insole_spot_sub(insole_turn_way(insole_turn(askew_rad), old), old);
-    at->spot = insole_spot_add(at->spot, shift);
-    insole_real_t more_m2 = insole_square(ANEW_SHARE) * insole_spot_dot(shift, shift);
-    at->cov_m2 = insole_spot_cov(insole_sym2_add(at->cov_m2, insole_sym2_circle(more_m2)));
-}
-
 INSOLE_COLD insole_status_t insole_phone_place_turn(insole_phone_place_t *place, uint64_t t_us,
                                                     insole_real_t askew_rad, insole_spot_t way)
 {
@@ -307,22 +302,14 @@ INSOLE_COLD insole_status_t insole_phone_place_turn(insole_phone_place_t *place,
     if (!insole_is_finite(askew_rad) || !insole_spot_is_finite(way)) {
         return INSOLE_ERR_VALUE;
     }
-    insole_step_filter_answer_t now;
+    insole_step_filter_begin_t anew;
     if (!place->is_started) {
-        insole_auto_start_config_t config = place->auto_start.config;
-        return insole_auto_start_init(&place->auto_start, &config, place->auto_start.circles);
+        return search_anew(place);
     }
-    if (place->filter.calls->answer(place->filter.state, &now) != INSOLE_OK) {
+    if (!is_somewhere(place, t_us, &anew)) {
         return INSOLE_OK;
     }
-    insole_step_filter_begin_t anew = {
-        t_us,  now.spot, insole_spot_cov(now.cov_m2), now.offset_rad, now.var_offset_rad2,
-        false, ZERO};
-    if (is_north(place, now.offset_rad, askew_rad)) {
-        walk_anew(&anew, way, askew_rad);
-    } else {
-        anew.offset_rad = insole_wrap_pi(now.offset_rad - askew_rad);
-    }
+    (void)insole_phone_aside_turn(&anew, &place->sight, askew_rad, way);
     return begin(place, &anew);
 }
 
@@ -337,21 +324,15 @@ INSOLE_COLD insole_status_t insole_phone_place_gap(insole_phone_place_t *place, 
     if (!(gap_s >= ZERO) || !insole_is_finite(gap_s)) {
         return INSOLE_ERR_VALUE;
     }
-    insole_step_filter_answer_t at;
-    if (!place->is_started || place->filter.calls->answer(place->filter.state, &at) != INSOLE_OK) {
+    insole_step_filter_begin_t anew;
+    if (!is_somewhere(place, t_us, &anew)) {
         return INSOLE_OK;
     }
     insole_real_t way_m2 =
         insole_min(insole_square(place->config.sigma_walk_mps * gap_s), INSOLE_SPOT_MOST_M2);
     insole_real_t turn_rad2 = insole_square(place->config.sigma_gap_turn_rad_rts) * gap_s;
-    const insole_step_filter_begin_t anew = {
-        t_us,
-        at.spot,
-        insole_spot_cov(insole_sym2_add(at.cov_m2, insole_sym2_circle(way_m2))),
-        at.offset_rad,
-        insole_min(at.var_offset_rad2 + turn_rad2, INSOLE_HEADING_MOST_R2),
-        false,
-        ZERO};
+    anew.cov_m2 = insole_spot_cov(insole_sym2_add(anew.cov_m2, insole_sym2_circle(way_m2)));
+    anew.var_offset_rad2 = insole_min(anew.var_offset_rad2 + turn_rad2, INSOLE_HEADING_MOST_R2);
     return begin(place, &anew);
 }
 
