@@ -31,7 +31,8 @@ ESTIMATED = ("insole_screen_push", "insole_still_bias_push", "insole_zero_veloci
              "insole_zupt_ekf_correct_9", "insole_zupt_ekf_correct_12",
              "insole_foot_tracker_imu_next", "insole_foot_tracker_imu_next_9",
              "insole_foot_tracker_imu_next_9_moving", "insole_foot_tracker_imu_next_9_corrected",
-             "insole_foot_fusion_second", "insole_foot_fusion_second_two_order",
+             "insole_foot_fusion_second", "insole_foot_fusion_second_9",
+             "insole_foot_fusion_second_two_order",
              "insole_particle_filter_1000", "insole_particle_filter_two_order_1000",
              "insole_attitude_push_ekf", "insole_attitude_push_ukf")
 
