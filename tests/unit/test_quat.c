@@ -261,7 +261,7 @@ END_TEST
 
 START_TEST(half_a_rotation_vector_without_end_gives_no_nonsense)
 {
-    static const double SIZES[4] = {1.0e4, 1.0e10, 1.0e30, INFINITY};
+    static const double SIZES[4] = {1.0e4, 1.0e10, 1.0e30, (double)INFINITY};
     insole_quat_t q = insole_quat_from_half(insole_vec3_scale(axis(2), (insole_real_t)SIZES[_i]));
     ASSERT_NEAR(norm_of(q), 1.0, 3.0 * EPS, "");
 }

@@ -62,7 +62,8 @@ static const char *const notes[] = {
     "What is ours in the proposed filter: a fix tells how badly its scan fits, and a step whose",
     "end is not certain that it may go either way. Rows without (37) look at the whole radio map.",
     "Our defaults are told neither step length nor position, and take a phone in the hand for one",
-    "that points ahead until ten steps show that it does not; best, any mounting, goes by the gait.",
+    "that points ahead until ten steps show that it lies across; best, any mounting, goes by the",
+    "gait.",
     NULL};
 
 /* ---- what is tried ----------------------------------------------------------------------- */

@@ -41,7 +41,7 @@ extern "C" {
     KEY(REAL, tipped_rad, 0.9, 0.1, 3.2, "rad", "a phone tipped over by so much is carried anew") \
     KEY(INT, aside_steps, 10, 1, 1000, "steps",                                                   \
         "a phone in the hand lies askew when so many steps go aside of where it points")          \
-    KEY(REAL, aside_rad, 0.8, 0.1, 3.2, "rad", "aside: farther off; 3.2 = never")                 \
+    KEY(REAL, aside_rad, 1.1, 0.1, 3.2, "rad", "aside: farther off; 3.2 = never")                 \
     KEY(INT, ahead_position, 0, -1, 7, "",                                                        \
         "carrying position in which a phone points ahead, by its number in the table; -1 = none") \
     KEY(REAL, length_ear, 1.08, 0.2, 5.0, "",                                                     \
