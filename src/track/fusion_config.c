@@ -52,6 +52,9 @@ INSOLE_COLD insole_status_t insole_fusion_memory_check(const insole_fusion_memor
     if (particles->walls == INSOLE_WALLS_SOFT && !memory->steps) {
         return INSOLE_ERR_NULL;
     }
+    if (memory->ranges && !memory->ranges->calls) {
+        return INSOLE_ERR_NULL;
+    }
     insole_cloud_t cloud = insole_fusion_cloud(memory);
     return insole_cloud_check(&cloud);
 }

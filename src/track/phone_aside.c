@@ -29,18 +29,18 @@ static void walk_anew(insole_step_filter_begin_t *at, insole_real_t askew_rad, i
 
 INSOLE_COLD insole_status_t insole_phone_aside_turn(insole_step_filter_begin_t *at,
                                                     const insole_phone_sight_t *sight,
-                                                    insole_real_t askew_rad, insole_spot_t way)
+                                                    const insole_phone_aside_t *aside)
 {
-    if (!at || !sight) {
+    if (!at || !sight || !aside) {
         return INSOLE_ERR_NULL;
     }
-    if (!insole_is_finite(askew_rad) || !insole_spot_is_finite(way)) {
+    if (!insole_is_finite(aside->askew_rad) || !insole_spot_is_finite(aside->way)) {
         return INSOLE_ERR_VALUE;
     }
-    if (is_north(sight, at->offset_rad, askew_rad)) {
-        walk_anew(at, askew_rad, way);
+    if (!aside->may_be_held || is_north(sight, at->offset_rad, aside->askew_rad)) {
+        walk_anew(at, aside->askew_rad, aside->way);
     } else {
-        at->offset_rad = insole_wrap_pi(at->offset_rad - askew_rad);
+        at->offset_rad = insole_wrap_pi(at->offset_rad - aside->askew_rad);
     }
     return INSOLE_OK;
 }

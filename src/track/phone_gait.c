@@ -105,6 +105,7 @@ static void tell_position(const insole_phone_gait_t *g, insole_phone_walk_t *wal
 static void forget_askew(insole_phone_gait_t *g, insole_phone_walk_t *walk)
 {
     g->askew = (insole_phone_askew_t){.sum = nothing, .up = g->up};
+    walk->lie.is_ahead = false;
     tell_askew(g, walk);
     tell_position(g, walk);
 }
@@ -177,7 +178,9 @@ static void judge_aside(insole_phone_gait_t *g, insole_phone_walk_t *walk, bool 
     bool was_aside = g->askew.is_aside;
     bool is_aside =
         is_certain && off_rad > c->aside_rad && g->askew.steps >= (uint32_t)c->aside_steps;
-    g->askew.is_aside = was_aside ? off_rad > HALF * c->aside_rad : is_aside;
+    bool is_near = off_rad < HALF * c->aside_rad;
+    g->askew.is_aside = was_aside ? !is_near : is_aside;
+    walk->lie.is_ahead = is_certain && is_near && g->askew.steps >= (uint32_t)c->aside_steps;
     if (g->askew.is_aside != was_aside) {
         tell_position(g, walk);
     }

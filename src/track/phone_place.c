@@ -4,7 +4,6 @@
 #include <stddef.h>
 
 #include "insole/track/foot_anchor.h"
-#include "insole/track/phone_aside.h"
 
 #define ZERO INSOLE_R(0.0)
 #define HALF INSOLE_R(0.5)
@@ -294,23 +293,21 @@ INSOLE_COLD insole_status_t insole_phone_place_compass(insole_phone_place_t *pla
 /* ---- turns ------------------------------------------------------------------------------ */
 
 INSOLE_COLD insole_status_t insole_phone_place_turn(insole_phone_place_t *place, uint64_t t_us,
-                                                    insole_real_t askew_rad, insole_spot_t way)
+                                                    const insole_phone_aside_t *aside)
 {
     if (!place) {
         return INSOLE_ERR_NULL;
     }
-    if (!insole_is_finite(askew_rad) || !insole_spot_is_finite(way)) {
-        return INSOLE_ERR_VALUE;
+    insole_step_filter_begin_t anew = {.t_us = t_us};
+    bool is_known = is_somewhere(place, t_us, &anew);
+    insole_status_t status = insole_phone_aside_turn(&anew, &place->sight, aside);
+    if (status != INSOLE_OK) {
+        return status;
     }
-    insole_step_filter_begin_t anew;
     if (!place->is_started) {
         return search_anew(place);
     }
-    if (!is_somewhere(place, t_us, &anew)) {
-        return INSOLE_OK;
-    }
-    (void)insole_phone_aside_turn(&anew, &place->sight, askew_rad, way);
-    return begin(place, &anew);
+    return is_known ? begin(place, &anew) : INSOLE_OK;
 }
 
 /* ---- gaps ------------------------------------------------------------------------------- */

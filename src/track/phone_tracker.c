@@ -95,11 +95,10 @@ INSOLE_COLD static void turn_aside(insole_phone_tracker_t *t, uint64_t t_us,
                                    const insole_pace_t *pace)
 {
     const insole_phone_lie_t *lie = &t->walk.lie;
-    if (t->trusts_pointing || !t->place.is_started) {
-        insole_spot_t way = insole_phone_way_since(&t->walk.way, lie->since_us);
-        way = insole_spot_sub(way, insole_pace_way(pace, ZERO));
-        (void)insole_phone_place_turn(&t->place, t_us, lie->askew_rad, way);
-    }
+    insole_spot_t way = insole_phone_way_since(&t->walk.way, lie->since_us);
+    insole_phone_aside_t aside = {lie->askew_rad, insole_spot_sub(way, insole_pace_way(pace, ZERO)),
+                                  t->trusts_pointing};
+    (void)insole_phone_place_turn(&t->place, t_us, &aside);
     t->starts = t->place.starts;
     t->trusts_pointing = false;
 }
@@ -119,6 +118,7 @@ INSOLE_APART static void count_steps(insole_phone_tracker_t *t, const insole_imu
                 turn_aside(t, footfall.end_us, &pace);
             }
             was_aside = t->walk.lie.is_aside;
+            t->trusts_pointing = t->trusts_pointing && !t->walk.lie.is_ahead;
             (void)insole_phone_place_step(&t->place, footfall.end_us, &pace);
         }
     }

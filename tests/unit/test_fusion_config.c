@@ -65,6 +65,7 @@ START_TEST(memory_must_be_there)
     static insole_particle_t particles[3];
     static insole_spot_t past[6];
     static insole_fusion_start_t start;
+    static insole_fusion_ranges_t ranges;
     insole_foot_fusion_config_t at_once = insole_foot_fusion_defaults, late = at_once;
     late.lag_s = 2;
     insole_fusion_memory_t memory = {particles, 3, past, 2, NULL, {NULL, NULL}, NULL};
@@ -81,6 +82,10 @@ START_TEST(memory_must_be_there)
     at_once.start_fixes = 3;
     ck_assert_int_eq(insole_fusion_memory_check(&memory, &at_once), INSOLE_ERR_NULL);
     memory.starter = (insole_fusion_starter_t){insole_fusion_start_hear, &start};
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, &at_once), INSOLE_OK);
+    memory.ranges = &ranges; /* not set up: nothing is behind its calls */
+    ck_assert_int_eq(insole_fusion_memory_check(&memory, &at_once), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_fusion_ranges_init(&ranges), INSOLE_OK);
     ck_assert_int_eq(insole_fusion_memory_check(&memory, &at_once), INSOLE_OK);
     memory.count = 0;
     ck_assert_int_eq(insole_fusion_memory_check(&memory, &at_once), INSOLE_ERR_VALUE);

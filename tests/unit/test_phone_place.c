@@ -739,8 +739,9 @@ static void set_up_to_turn(void)
 
 static insole_status_t turn(double askew_rad, double x_m, double y_m)
 {
-    return insole_phone_place_turn(&place, 20000000u, (insole_real_t)askew_rad,
-                                   insole_spot((insole_real_t)x_m, (insole_real_t)y_m));
+    insole_phone_aside_t aside = {
+        (insole_real_t)askew_rad, {(insole_real_t)x_m, (insole_real_t)y_m}, true};
+    return insole_phone_place_turn(&place, 20000000u, &aside);
 }
 
 /* The heading that was told made the offset: what was walked is right. */
@@ -794,8 +795,9 @@ START_TEST(turns_that_are_none_are_refused)
     ASSERT_UNCHANGED(place, turn((double)NAN, 1.0, 1.0), INSOLE_ERR_VALUE);
     ASSERT_UNCHANGED(place, turn(1.0, (double)INFINITY, 1.0), INSOLE_ERR_VALUE);
     ASSERT_UNCHANGED(place, turn(1.0, 1.0, (double)NAN), INSOLE_ERR_VALUE);
-    ck_assert_int_eq(insole_phone_place_turn(NULL, 1u, INSOLE_R(1.0), fake.at.spot),
-                     INSOLE_ERR_NULL);
+    insole_phone_aside_t aside = {INSOLE_R(1.0), {0, 0}, true};
+    ck_assert_int_eq(insole_phone_place_turn(NULL, 1u, &aside), INSOLE_ERR_NULL);
+    ASSERT_UNCHANGED(place, insole_phone_place_turn(&place, 1u, NULL), INSOLE_ERR_NULL);
     ck_assert_uint_eq(fake.started, 1u);
 }
 END_TEST

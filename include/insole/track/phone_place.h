@@ -30,7 +30,7 @@
 #include "insole/fuse/auto_start.h"
 #include "insole/fuse/step_filter.h"
 #include "insole/place/radio_map.h"
-#include "insole/track/phone_compass.h"
+#include "insole/track/phone_aside.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -131,13 +131,11 @@ insole_status_t insole_phone_place_fix(insole_phone_place_t *place, const insole
  *  @return INSOLE_ERR_NULL, or as the filter answers */
 insole_status_t insole_phone_place_compass(insole_phone_place_t *place);
 
-/** Steps go by `askew_rad` aside of where they were taken to go until now: the phone points aside.
- *  An offset that was learned by them holds that angle; if the compass says otherwise, `way` was
- *  turned wrongly and is walked anew. A search begins anew.
- *  @param way  n, of the steps that have gone aside until now
- *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for an angle or a way that is not finite */
+/** Steps go aside of where they were taken to go until now: the filter begins anew, turned
+ *  (phone_aside.h), and a search as if nothing had been heard.
+ *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE as insole_phone_aside_turn() */
 insole_status_t insole_phone_place_turn(insole_phone_place_t *place, uint64_t t_us,
-                                        insole_real_t askew_rad, insole_spot_t way);
+                                        const insole_phone_aside_t *aside);
 
 /** Nothing is known of so long a time: the filter is started anew where it is, less certain.
  *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a time that is negative or not finite */

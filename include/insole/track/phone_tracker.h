@@ -79,7 +79,8 @@ typedef struct {
 
     uint64_t t_us;        /**< of the newest clean sample */
     uint32_t starts;      /**< of the filter, when they were looked at last */
-    bool trusts_pointing; /**< the last was directed by a phone that was taken to point ahead */
+    bool trusts_pointing; /**< the last was directed by a phone that was taken to point ahead, and
+                               no steps have shown since that it does */
     bool has_time, coasting, finished;
     insole_fix_t fix; /**< newest, until taken */
     bool has_fix;

@@ -55,6 +55,7 @@ enum { INSOLE_PHONE_NO_POSITION = -1 };
 typedef struct {
     bool is_askew;              /**< steps go by what is here; else where the phone points */
     bool is_aside;              /**< so although phones point ahead in this position */
+    bool is_ahead;              /**< many steps have gone where it points, lying as it does */
     bool is_known;              /**< there is a direction, if so */
     insole_real_t askew_rad;    /**< from where the phone points to where its walker goes */
     insole_turn_t askew;        /**< that angle */
