@@ -37,22 +37,23 @@ INSOLE_COLD insole_status_t insole_fusion_config_check(const insole_foot_fusion_
     return all ? INSOLE_OK : INSOLE_ERR_VALUE;
 }
 
+/* What these settings cannot do without, and what is lent but not set up. */
+static bool is_lacking(const insole_fusion_memory_t *memory,
+                       const insole_foot_fusion_config_t *config)
+{
+    bool is_patient = config->method == INSOLE_FUSION_BEST && config->start_fixes > 1;
+    const insole_particle_filter_config_t *particles =
+        config->method == INSOLE_FUSION_TWO_ORDER ? &config->two_order : &config->particles;
+    return (config->lag_s > INSOLE_R(0.0) && !memory->past) ||
+           (is_patient && !(memory->starter.hear && memory->starter.state)) ||
+           (particles->walls == INSOLE_WALLS_SOFT && !memory->steps) ||
+           (memory->ranges && !memory->ranges->calls);
+}
+
 INSOLE_COLD insole_status_t insole_fusion_memory_check(const insole_fusion_memory_t *memory,
                                                        const insole_foot_fusion_config_t *config)
 {
-    if (!memory || !config || (config->lag_s > INSOLE_R(0.0) && !memory->past)) {
-        return INSOLE_ERR_NULL;
-    }
-    bool is_patient = config->method == INSOLE_FUSION_BEST && config->start_fixes > 1;
-    if (is_patient && !(memory->starter.hear && memory->starter.state)) {
-        return INSOLE_ERR_NULL;
-    }
-    const insole_particle_filter_config_t *particles =
-        config->method == INSOLE_FUSION_TWO_ORDER ? &config->two_order : &config->particles;
-    if (particles->walls == INSOLE_WALLS_SOFT && !memory->steps) {
-        return INSOLE_ERR_NULL;
-    }
-    if (memory->ranges && !memory->ranges->calls) {
+    if (!memory || !config || is_lacking(memory, config)) {
         return INSOLE_ERR_NULL;
     }
     insole_cloud_t cloud = insole_fusion_cloud(memory);
