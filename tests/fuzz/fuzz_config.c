@@ -31,6 +31,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                                            {insole_fusion_start_hear, &start},
                                            &insole_step_weighing_calls};
     failure_t failure = {EXIT_DONE, ""};
+    (void)insole_fusion_ranges_init(&ranges);
     settings_init(&settings);
     if (!config_read_file(&settings, fuzz_file(data, size), "config", &failure)) {
         fuzz_claim(failure.exit_code == EXIT_BAD_INPUT, "a malformed config is bad input");
