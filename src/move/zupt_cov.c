@@ -98,17 +98,19 @@ static void gain_rows(insole_zupt_cov_t *P, const insole_mat3_t *G, const insole
     P->vb = *vb;
 }
 
-/* First the rows of p, then those of v. */
-INSOLE_FLAT void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P, insole_vec3_t u,
-                                                const insole_mat3_t *C, insole_real_t dt_s)
+/* The rows of p and v have been moved and turned as far as p, v and a go. */
+INSOLE_FLAT void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P,
+                                                const insole_zupt_interval_t *interval)
 {
-    insole_mat3_t G = insole_mat3_scale(*C, -dt_s);
-    P->pb = insole_mat3_add_scaled(P->pb, dt_s, P->vb);
+    insole_real_t half_s = INSOLE_R(0.5) * interval->time_s;
+    insole_mat3_t G = insole_mat3_scale(interval->C_s, INSOLE_R(-1.0));
+    P->pb = insole_mat3_add_scaled(P->pb, half_s, P->vb);
     P->pv = insole_mat3_add(P->pv, insole_mat3_mul_t(P->pb, G));
     P->va = insole_mat3_add(P->va, insole_mat3_mul_t(G, P->ab));
-    P->vb = insole_mat3_sub(P->vb, insole_mat3_skew_mul(u, P->ab));
+    P->vb = insole_mat3_sub(P->vb, insole_mat3_skew_mul(interval->u_mps, P->ab));
     insole_mat3_t vb = insole_mat3_add(P->vb, insole_mat3_mul_sym(G, P->bb));
     gain_rows(P, &G, &vb);
+    P->pb = insole_mat3_add_scaled(P->pb, half_s, P->vb);
 }
 
 /* K_x = P_xv+ / r */

@@ -15,6 +15,7 @@ static const uint32_t LONGEST_STEP_US = 1000000u;
 
 /* The interval that sigma_zupt_mps speaks of. */
 static const insole_real_t ZUPT_INTERVAL_S = INSOLE_R(0.005);
+static const insole_real_t LONGEST_STILL_S = INSOLE_R(1.0);
 
 /* No foot and no building goes beyond; within, a day of nonsense stays finite. */
 static const insole_real_t MOST_ACCEL_MPS2 = INSOLE_R(1.5e4), MOST_GYRO_RADPS = INSOLE_R(1.5e3);
@@ -91,6 +92,25 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf,
     return INSOLE_OK;
 }
 
+/* The covariance alone; noise waits for the end of its block. */
+static void settle(insole_zupt_ekf_t *ekf)
+{
+    static const insole_zupt_interval_t nothing;
+    insole_zupt_cov_propagate(&ekf->P, &ekf->pending, has_bias(ekf));
+    ekf->pending = nothing;
+}
+
+INSOLE_APART insole_status_t insole_zupt_ekf_settle(insole_zupt_ekf_t *ekf)
+{
+    if (!ekf) {
+        return INSOLE_ERR_NULL;
+    }
+    if (ekf->pending.time_s > ZERO) {
+        settle(ekf);
+    }
+    return INSOLE_OK;
+}
+
 INSOLE_COLD insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf,
                                                   insole_vec3_t mean_accel_mps2,
                                                   insole_real_t sigma_tilt_rad,
@@ -115,6 +135,7 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf,
     ekf->last_accel_mps2 = mean_accel_mps2;
     ekf->last_gyro_radps = insole_vec3_zero();
     insole_real_t tilt_var = insole_square(sigma_tilt_rad);
+    (void)insole_zupt_ekf_settle(ekf);
     insole_zupt_cov_forget_motion(&ekf->P);
     ekf->P.aa = insole_sym3_diagonal(tilt_var, tilt_var, ekf->P.aa.zz);
     begin_trace(ekf, INSOLE_ZUPT_STEP_ALIGN);
@@ -214,6 +235,7 @@ static void add_noise(insole_zupt_ekf_t *ekf)
 /* Rounding has had no time to be seen in the quaternion's length. */
 INSOLE_FLAT static void end_block(insole_zupt_ekf_t *ekf)
 {
+    (void)insole_zupt_ekf_settle(ekf);
     add_noise(ekf);
     insole_quat_t q = insole_quat_unit(ekf->q);
     ekf->q = ekf->trace.q = q;
@@ -247,7 +269,7 @@ INSOLE_FLAT insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, cons
     if (clipped != 0u) {
         gather_clip_noise(ekf, clipped);
     }
-    insole_zupt_cov_propagate(&ekf->P, u, &ekf->C, dt, has_bias(ekf));
+    insole_zupt_interval_add(&ekf->pending, u, &ekf->C, dt, has_bias(ekf));
     if (++ekf->noise.samples >= NOISE_BLOCK) {
         end_block(ekf);
     }
@@ -277,7 +299,8 @@ static insole_vec3_t rolling_velocity(const insole_zupt_ekf_t *ekf)
     return insole_vec3(w.y * h, -w.x * h, ZERO); /* w x (0, 0, h) */
 }
 
-INSOLE_FLAT insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *nis)
+INSOLE_FLAT insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t still_s,
+                                                    insole_real_t *nis)
 {
     if (!ekf) {
         return INSOLE_ERR_NULL;
@@ -285,7 +308,11 @@ INSOLE_FLAT insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, inso
     if (!ekf->aligned || !(ekf->dt_s > ZERO)) {
         return refuse(ekf, INSOLE_ERR_STATE);
     }
-    insole_real_t r = insole_square(ekf->config.sigma_zupt_mps) * ZUPT_INTERVAL_S / ekf->dt_s;
+    if (!(still_s > ZERO && still_s <= LONGEST_STILL_S)) {
+        return refuse(ekf, INSOLE_ERR_VALUE);
+    }
+    (void)insole_zupt_ekf_settle(ekf);
+    insole_real_t r = insole_square(ekf->config.sigma_zupt_mps) * ZUPT_INTERVAL_S / still_s;
     insole_sym3_t S = insole_sym3_add_diagonal(ekf->P.vv, r); /* H P H' + R, [TwoOrder (23)] */
     insole_sym3_t W;                                          /* S^-1 */
     if (!insole_sym3_inverse(S, &W)) {
@@ -318,6 +345,7 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_correct_height(insole_zupt_ekf_t *ek
           sigma_m <= MOST_SIGMA_M)) {
         return refuse(ekf, INSOLE_ERR_VALUE);
     }
+    (void)insole_zupt_ekf_settle(ekf);
     insole_real_t r = insole_square(sigma_m);
     insole_real_t per_s = INSOLE_R(1.0) / (ekf->P.pp.zz + r);
     insole_zupt_error_t column = insole_zupt_cov_of_height(&ekf->P);
@@ -346,6 +374,7 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf,
         !(sigma_mps >= ZERO && sigma_mps <= MOST_SPEED_MPS)) {
         return refuse(ekf, INSOLE_ERR_VALUE);
     }
+    (void)insole_zupt_ekf_settle(ekf);
     insole_zupt_cov_t *P = &ekf->P;
     insole_real_t dt = insole_seconds(ekf->t_us, t_us);
     if (ekf->trace.step != INSOLE_ZUPT_STEP_COAST) {

@@ -71,6 +71,8 @@ insole_status_t insole_zupt_smooth_push(insole_zupt_smooth_t *smooth, const inso
     node->v_mps = ekf->v_mps;
     node->q = ekf->q;
     node->P = ekf->P;
+    insole_zupt_cov_propagate(&node->P, &ekf->pending,
+                              ekf->config.sigma_accel_bias_mps2 > ZERO);
     node->trace = ekf->trace;
     smooth->newest_us = ekf->t_us;
     return INSOLE_OK;

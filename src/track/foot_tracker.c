@@ -128,6 +128,7 @@ INSOLE_COLD static void align_first(insole_foot_tracker_t *t, const insole_label
 /* Where the errors of position are counted from. */
 INSOLE_COLD static void forget_place(insole_foot_tracker_t *t)
 {
+    (void)insole_zupt_ekf_settle(&t->zupt_ekf);
     insole_zupt_cov_forget_place(&t->zupt_ekf.P);
     t->walk.place_m2 = ZERO;
 }
@@ -144,6 +145,21 @@ INSOLE_COLD static void level_floor(insole_foot_tracker_t *t)
     }
 }
 
+/* A stance is measured where it begins, and then from time to time. */
+static void measure_stance(insole_foot_tracker_t *t)
+{
+    insole_zupt_ekf_t *ekf = &t->zupt_ekf;
+    t->unmeasured_s = (t->was_still ? t->unmeasured_s : ZERO) + ekf->dt_s;
+    bool is_due = t->unmeasured_s + INSOLE_R(0.5) * ekf->dt_s >= t->config.correct_every_s;
+    if (t->was_still && !is_due) {
+        return;
+    }
+    if (insole_zupt_ekf_correct(ekf, t->unmeasured_s, 0) == INSOLE_OK) {
+        t->counts.corrections++;
+    }
+    t->unmeasured_s = ZERO;
+}
+
 /* The sample loses its gyro bias. */
 static void navigate(insole_foot_tracker_t *t, insole_labelled_t *s)
 {
@@ -151,9 +167,7 @@ static void navigate(insole_foot_tracker_t *t, insole_labelled_t *s)
     t->zupt_ekf.gravity_mps2 = t->still_bias.gravity_mps2;
     (void)insole_zupt_ekf_predict(&t->zupt_ekf, &s->imu, s->tag & INSOLE_MARK_CLIP);
     if (s->still) {
-        if (insole_zupt_ekf_correct(&t->zupt_ekf, 0) == INSOLE_OK) {
-            t->counts.corrections++;
-        }
+        measure_stance(t);
         t->stance_q = t->zupt_ekf.q;
         t->stance_us = s->imu.t_us;
     } else if (t->was_still) {
@@ -239,6 +253,7 @@ static void bridge(insole_foot_tracker_t *t, insole_labelled_t *s)
     insole_real_t gap_s = insole_seconds(ekf->t_us, s->imu.t_us);
     insole_real_t var_v = insole_square(BRIDGE_ACCEL_MPS2 * gap_s);
     insole_real_t var_a = insole_square(BRIDGE_GYRO_RADPS * gap_s);
+    (void)insole_zupt_ekf_settle(ekf);
     ekf->P.vv = insole_sym3_add_diagonal(ekf->P.vv, var_v);
     ekf->P.aa = insole_sym3_add_diagonal(ekf->P.aa, var_a);
     navigate(t, s);

@@ -97,16 +97,34 @@ static void make_sample_and_predict(uint32_t call)
     insole_zupt_ekf_predict(&ekf, &bench_imu, 0u);
 }
 
+static void call_insole_zupt_ekf_settle_9(uint32_t call)
+{
+    (void)call;
+    insole_zupt_ekf_settle(&ekf);
+}
+
+static void call_insole_zupt_ekf_settle_12(uint32_t call)
+{
+    (void)call;
+    insole_zupt_ekf_settle(&ekf);
+}
+
+static void make_sample_and_settle(uint32_t call)
+{
+    make_sample_and_predict(call);
+    insole_zupt_ekf_settle(&ekf);
+}
+
 static void call_insole_zupt_ekf_correct_9(uint32_t call)
 {
     (void)call;
-    insole_zupt_ekf_correct(&ekf, NULL);
+    insole_zupt_ekf_correct(&ekf, ekf.dt_s, NULL);
 }
 
 static void call_insole_zupt_ekf_correct_12(uint32_t call)
 {
     (void)call;
-    insole_zupt_ekf_correct(&ekf, NULL);
+    insole_zupt_ekf_correct(&ekf, ekf.dt_s, NULL);
 }
 
 static insole_foot_tracker_t shoe;
@@ -162,9 +180,13 @@ static const bench_case_t cases[] = {
      call_insole_zupt_ekf_predict_9, take_ekf},
     {"insole_zupt_ekf_predict_12", BENCH_WALK, begin_twelve, bench_make_sample,
      call_insole_zupt_ekf_predict_12, take_ekf},
-    {"insole_zupt_ekf_correct_9", BENCH_REST, begin_nine, make_sample_and_predict,
+    {"insole_zupt_ekf_settle_9", BENCH_WALK, begin_nine, make_sample_and_predict,
+     call_insole_zupt_ekf_settle_9, take_ekf},
+    {"insole_zupt_ekf_settle_12", BENCH_WALK, begin_twelve, make_sample_and_predict,
+     call_insole_zupt_ekf_settle_12, take_ekf},
+    {"insole_zupt_ekf_correct_9", BENCH_REST, begin_nine, make_sample_and_settle,
      call_insole_zupt_ekf_correct_9, take_ekf},
-    {"insole_zupt_ekf_correct_12", BENCH_REST, begin_twelve, make_sample_and_predict,
+    {"insole_zupt_ekf_correct_12", BENCH_REST, begin_twelve, make_sample_and_settle,
      call_insole_zupt_ekf_correct_12, take_ekf},
     {"insole_foot_tracker_imu_next", BENCH_WALK, begin_shoe, bench_make_sample,
      call_insole_foot_tracker_imu_next, take_fix},

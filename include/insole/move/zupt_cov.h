@@ -5,11 +5,14 @@
  *  Errors  dx = [dp dv da db]: position, velocity, attitude with R_true = (I + [da]x) R, and the
  *          accelerometer's bias. With nine states the blocks of b are zero and not computed.
  *
- *      insole_zupt_cov_propagate(&P, force_dt_mps, C, dt_s, true);
+ *      insole_zupt_interval_add(&interval, force_dt_mps, &C, dt_s, true);  on each sample
+ *      insole_zupt_cov_propagate(&P, &interval, true);                     for some of them at once
  *      dx = insole_zupt_cov_correct_velocity(&P, W, r, z, true);
  *
- *  What the filter and the smoother share; nothing is checked here. Nothing that is zero in
- *  Phi = [I I.dt 0 0; 0 I -U G; 0 0 I 0; 0 0 0 I] is multiplied: U = [f dt]x and G = -C dt.
+ *  What the filter and the smoother share; nothing is checked here. Over an interval the velocity's
+ *  error changes, v' = v - U a + G b with U = [sum of f dt]x and G = -(sum of C dt), and that of
+ *  the position grows by the mean of the velocity's before and after: p' = p + dt (v + v') / 2.
+ *  Nothing that is zero in this Phi is multiplied.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -46,36 +49,48 @@ typedef struct {
     insole_vec3_t p, v, a, b;
 } insole_zupt_error_t;
 
-/* A row of p' = p + v dt and v' = v - U a, given that of v. @return the row of p' and v, not v' */
-static inline insole_vec3_t insole_zupt_move_row(insole_vec3_t *pv, insole_vec3_t *pa,
-                                                 insole_vec3_t vv, insole_vec3_t va,
-                                                 insole_vec3_t u, insole_real_t dt)
+/** Phi of one sample, or of several in a row. */
+typedef struct {
+    insole_real_t time_s;
+    insole_vec3_t u_mps; /**< integral of the specific force, n */
+#if INSOLE_ZUPT_STATES == 12
+    insole_mat3_t C_s; /**< integral of the rotation from b to n */
+#endif
+} insole_zupt_interval_t;
+
+/** One more sample.
+ *  @param u  specific force in n times dt_s
+ *  @param C  rotation from b to n */
+static inline void insole_zupt_interval_add(insole_zupt_interval_t *interval, insole_vec3_t u,
+                                            const insole_mat3_t *C, insole_real_t dt_s,
+                                            bool has_bias)
 {
-    insole_vec3_t moved = insole_vec3_add_scaled(*pv, dt, vv);
-    *pa = insole_vec3_add_scaled(*pa, dt, va);
-    *pv = insole_vec3_add(moved, insole_vec3_cross(*pa, u));
-    return moved;
+    interval->time_s += dt_s;
+    interval->u_mps = insole_vec3_add(interval->u_mps, u);
+#if INSOLE_ZUPT_STATES == 12
+    if (has_bias) {
+        interval->C_s = insole_mat3_add_scaled(interval->C_s, dt_s, *C);
+    }
+#else
+    (void)C, (void)has_bias;
+#endif
 }
 
-/* The rows of p; a symmetric entry takes one half from the old and one from the new column. */
-static inline void insole_zupt_move_rows(insole_zupt_cov_t *P, insole_vec3_t u, insole_real_t dt)
+/* The rows of p' = p + v dt; a symmetric entry takes one half from the old and one from the new
+ * column. */
+static inline void insole_zupt_move_rows(insole_zupt_cov_t *P, insole_real_t dt)
 {
-    insole_sym3_t *pp = &P->pp, vv = P->vv;
-    insole_mat3_t *pv = &P->pv, *pa = &P->pa, *va = &P->va;
-    insole_real_t yx = pv->r1.x, zx = pv->r2.x, zy = pv->r2.y;
-    insole_real_t xx = pv->r0.x, yy = pv->r1.y, zz = pv->r2.z;
-    insole_vec3_t x =
-        insole_zupt_move_row(&pv->r0, &pa->r0, insole_vec3(vv.xx, vv.xy, vv.xz), va->r0, u, dt);
-    pp->xx += dt * (x.x + xx);
-    pp->xy += dt * (x.y + yx);
-    pp->xz += dt * (x.z + zx);
-    insole_vec3_t y =
-        insole_zupt_move_row(&pv->r1, &pa->r1, insole_vec3(vv.xy, vv.yy, vv.yz), va->r1, u, dt);
-    pp->yy += dt * (y.y + yy);
-    pp->yz += dt * (y.z + zy);
-    insole_vec3_t z =
-        insole_zupt_move_row(&pv->r2, &pa->r2, insole_vec3(vv.xz, vv.yz, vv.zz), va->r2, u, dt);
-    pp->zz += dt * (z.z + zz);
+    insole_sym3_t *pp = &P->pp;
+    insole_mat3_t was = P->pv;
+    insole_mat3_t pv = insole_mat3_add_scaled(was, dt, insole_sym3_full(P->vv));
+    pp->xx += dt * (pv.r0.x + was.r0.x);
+    pp->xy += dt * (pv.r0.y + was.r1.x);
+    pp->xz += dt * (pv.r0.z + was.r2.x);
+    pp->yy += dt * (pv.r1.y + was.r1.y);
+    pp->yz += dt * (pv.r1.z + was.r2.y);
+    pp->zz += dt * (pv.r2.z + was.r2.z);
+    P->pv = pv;
+    P->pa = insole_mat3_add_scaled(P->pa, dt, P->va);
 }
 
 /* The rows of v' = v - U a: a row r of P_va gives r x u to that of P_vv, one half the old and one
@@ -84,6 +99,7 @@ static inline void insole_zupt_turn_rows(insole_zupt_cov_t *P, insole_vec3_t u)
 {
     insole_sym3_t *vv = &P->vv;
     insole_mat3_t was = P->va;
+    P->pv = insole_mat3_add(P->pv, insole_mat3_mul_skew(P->pa, u));
     insole_mat3_t va = insole_mat3_sub(was, insole_mat3_skew_mul(u, insole_sym3_full(P->aa)));
     vv->xx += insole_vec3_cross(insole_vec3_add(va.r0, was.r0), u).x;
     vv->xy += u.x * va.r0.z - u.y * was.r1.z + u.z * (was.r1.y - va.r0.x);
@@ -94,26 +110,24 @@ static inline void insole_zupt_turn_rows(insole_zupt_cov_t *P, insole_vec3_t u)
     P->va = va;
 }
 
-/* What the bias adds afterwards: v' = v - U a + G b. Not with nine states. */
-void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P, insole_vec3_t u, const insole_mat3_t *C,
-                                    insole_real_t dt_s);
+/* What the bias adds to the velocity, and its own rows. Not with nine states. */
+void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P, const insole_zupt_interval_t *interval);
 
-/** Phi P Phi' over an interval.
- *  @param u  specific force in n times dt_s
- *  @param C  rotation from b to n */
-static inline void insole_zupt_cov_propagate(insole_zupt_cov_t *P, insole_vec3_t u,
-                                             const insole_mat3_t *C, insole_real_t dt_s,
-                                             bool has_bias)
+/** Phi P Phi' over an interval. */
+static inline void insole_zupt_cov_propagate(insole_zupt_cov_t *P,
+                                             const insole_zupt_interval_t *interval, bool has_bias)
 {
-    insole_zupt_move_rows(P, u, dt_s); /* [TwoOrder (20)-(21)], [TwoOrder (24)] */
-    insole_zupt_turn_rows(P, u);
+    insole_real_t half_s = INSOLE_R(0.5) * interval->time_s;
+    insole_zupt_move_rows(P, half_s); /* [TwoOrder (20)-(21)], [TwoOrder (24)] */
+    insole_zupt_turn_rows(P, interval->u_mps);
 #if INSOLE_ZUPT_STATES == 12
     if (has_bias) {
-        insole_zupt_cov_propagate_bias(P, u, C, dt_s);
+        insole_zupt_cov_propagate_bias(P, interval);
     }
 #else
-    (void)C, (void)has_bias;
+    (void)has_bias;
 #endif
+    insole_zupt_move_rows(P, half_s);
 }
 
 /** P H' w with H = [0 I 0 0]: what a measurement of the velocity tells of all. */

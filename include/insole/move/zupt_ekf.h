@@ -11,10 +11,12 @@
  *      insole_zupt_ekf_init(&foot, &insole_zupt_ekf_defaults);
  *      insole_zupt_ekf_align(&foot, mean_accel_while_standing_mps2, t_us);
  *      on each sample:
- *          insole_zupt_ekf_predict(&foot, &imu);
- *          if (still) insole_zupt_ekf_correct(&foot, &nis);
+ *          insole_zupt_ekf_predict(&foot, &imu, 0);
+ *          if (still) insole_zupt_ekf_correct(&foot, foot.dt_s, &nis);
+ *      before the covariance is read: insole_zupt_ekf_settle(&foot);
  *
- *  The covariance is kept in its 3x3 blocks (zupt_cov.h).
+ *  The covariance is kept in its 3x3 blocks (zupt_cov.h), and carried on for up to eight samples at
+ *  once: that takes most of what a sample costs off it.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -113,7 +115,8 @@ typedef struct {
     insole_mat3_t C;          /**< rotation matrix of q */
     insole_vec3_t force_mps2; /**< n, mean specific force of the last interval */
     insole_vec3_t last_accel_mps2, last_gyro_radps; /**< b, of the last sample, bias removed */
-    insole_zupt_cov_t P;
+    insole_zupt_cov_t P;              /**< before `pending` */
+    insole_zupt_interval_t pending;   /**< the newest samples, which P has not seen yet */
     insole_zupt_noise_t noise;
     insole_zupt_trace_t trace;
     uint32_t refused; /**< calls answered with a negative status */
@@ -155,11 +158,19 @@ insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf, insole_vec3_t mean
 insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, const insole_imu_t *imu,
                                         uint32_t clipped);
 
+/** The covariance comes up to the last sample. Corrections do so by themselves.
+ *  @return INSOLE_ERR_NULL */
+insole_status_t insole_zupt_ekf_settle(insole_zupt_ekf_t *ekf);
+
 /** Zero-velocity correction (22)-(31): the foot rolls over the ground below the sensor. At most one
  *  per sample.
+ *  @param still_s   what it speaks for: the time since the last one, or since the foot stands; up
+ *                   to 1 s. As sure as `sigma_zupt_mps` for 5 ms, and more so for longer.
  *  @param[out] nis  normalised innovation squared, chi2(3) when consistent; NULL to skip
- *  @return INSOLE_ERR_STATE before alignment or when the innovation's covariance is not positive */
-insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t *nis);
+ *  @return INSOLE_ERR_STATE before alignment or when the innovation's covariance is not positive,
+ *          INSOLE_ERR_VALUE for a time out of its range */
+insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t still_s,
+                                        insole_real_t *nis);
 
 /** Correction by a known height: z = `height_m` with 1-sigma `sigma_m`. At most one per sample.
  *  @return INSOLE_ERR_STATE before alignment, INSOLE_ERR_VALUE for a height beyond 1e6 m or a sigma

@@ -15,7 +15,7 @@ int main(void)
     for (;;) {
         imu = sensor;
         (void)insole_zupt_ekf_predict(&foot, &imu, 0u);
-        (void)insole_zupt_ekf_correct(&foot, NULL);
+        (void)insole_zupt_ekf_correct(&foot, foot.dt_s, NULL);
         shown.x_m = foot.p_m.x;
         shown.y_m = foot.p_m.y;
     }
