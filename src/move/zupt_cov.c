@@ -84,33 +84,39 @@ INSOLE_COLD void insole_zupt_cov_correct_height(insole_zupt_cov_t *P, insole_rea
 
 #if INSOLE_ZUPT_STATES == 12
 
-/* v = v - U a is done: vb is half way, and the gain of the velocity is that of b alone. */
-static void gain_rows(insole_zupt_cov_t *P, const insole_mat3_t *G, const insole_mat3_t *vb)
+/* What G b gives to the symmetric block of rows whose covariance with b it leads from `was` to
+ * `now`: one half by the old, one by the new rows. */
+static insole_sym3_t gained(const insole_mat3_t *G, const insole_mat3_t *was,
+                            const insole_mat3_t *now)
 {
-    insole_sym3_t *vv = &P->vv;
-    const insole_mat3_t *was = &P->vb;
-    vv->xx += insole_vec3_dot(insole_vec3_add(vb->r0, was->r0), G->r0);
-    vv->xy += insole_vec3_dot(vb->r0, G->r1) + insole_vec3_dot(was->r1, G->r0);
-    vv->xz += insole_vec3_dot(vb->r0, G->r2) + insole_vec3_dot(was->r2, G->r0);
-    vv->yy += insole_vec3_dot(insole_vec3_add(vb->r1, was->r1), G->r1);
-    vv->yz += insole_vec3_dot(vb->r1, G->r2) + insole_vec3_dot(was->r2, G->r1);
-    vv->zz += insole_vec3_dot(insole_vec3_add(vb->r2, was->r2), G->r2);
-    P->vb = *vb;
+    insole_sym3_t s = {insole_vec3_dot(insole_vec3_add(now->r0, was->r0), G->r0),
+                       insole_vec3_dot(now->r0, G->r1) + insole_vec3_dot(was->r1, G->r0),
+                       insole_vec3_dot(now->r0, G->r2) + insole_vec3_dot(was->r2, G->r0),
+                       insole_vec3_dot(insole_vec3_add(now->r1, was->r1), G->r1),
+                       insole_vec3_dot(now->r1, G->r2) + insole_vec3_dot(was->r2, G->r1),
+                       insole_vec3_dot(insole_vec3_add(now->r2, was->r2), G->r2)};
+    return s;
 }
 
-/* The rows of p and v have been moved and turned as far as p, v and a go. */
+/* p = p + T v - S a and v = v - U a are done but for their covariance with b; it follows what b
+ * adds: G b.T/2 and G b. */
 INSOLE_FLAT void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P,
                                                 const insole_zupt_interval_t *interval)
 {
-    insole_real_t half_s = INSOLE_R(0.5) * interval->time_s;
-    insole_mat3_t G = insole_mat3_scale(interval->C_s, INSOLE_R(-1.0));
-    P->pb = insole_mat3_add_scaled(P->pb, half_s, P->vb);
-    P->pv = insole_mat3_add(P->pv, insole_mat3_mul_t(P->pb, G));
-    P->va = insole_mat3_add(P->va, insole_mat3_mul_t(G, P->ab));
-    P->vb = insole_mat3_sub(P->vb, insole_mat3_skew_mul(interval->u_mps, P->ab));
-    insole_mat3_t vb = insole_mat3_add(P->vb, insole_mat3_mul_sym(G, P->bb));
-    gain_rows(P, &G, &vb);
-    P->pb = insole_mat3_add_scaled(P->pb, half_s, P->vb);
+    const insole_mat3_t *G = &interval->G_s;
+    insole_real_t T = interval->time_s, half_s = INSOLE_R(0.5) * T;
+    insole_mat3_t Gb = insole_mat3_mul_sym(*G, P->bb), Ga = insole_mat3_mul_t(*G, P->ab);
+    insole_mat3_t pb = insole_mat3_sub(insole_mat3_add_scaled(P->pb, T, P->vb),
+                                       insole_mat3_skew_mul(interval->s_m, P->ab));
+    insole_mat3_t vb = insole_mat3_sub(P->vb, insole_mat3_skew_mul(interval->u_mps, P->ab));
+    P->pa = insole_mat3_add_scaled(P->pa, half_s, Ga);
+    P->va = insole_mat3_add(P->va, Ga);
+    P->pb = insole_mat3_add_scaled(pb, half_s, Gb);
+    P->vb = insole_mat3_add(vb, Gb);
+    P->pv = insole_mat3_add(P->pv, insole_mat3_mul_t(P->pb, *G));
+    P->pv = insole_mat3_add_scaled(P->pv, half_s, insole_mat3_mul_t(*G, vb));
+    P->pp = insole_sym3_add_scaled(P->pp, half_s, gained(G, &pb, &P->pb));
+    P->vv = insole_sym3_add(P->vv, gained(G, &vb, &P->vb));
 }
 
 /* K_x = P_xv+ / r */

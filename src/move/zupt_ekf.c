@@ -6,10 +6,6 @@
 #define ZERO  INSOLE_R(0.0)
 #define SIXTH (INSOLE_R(1.0) / INSOLE_R(6.0))
 
-/* Long enough that a block of yaw noise is not lost to rounding beside a day's yaw variance, short
- * enough that noise of a swing still turns into velocity within the swing. */
-enum { NOISE_BLOCK = 8 };
-
 /* Longer intervals are no sampling but a gap. */
 static const uint32_t LONGEST_STEP_US = 1000000u;
 
@@ -270,7 +266,7 @@ INSOLE_FLAT insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, cons
         gather_clip_noise(ekf, clipped);
     }
     insole_zupt_interval_add(&ekf->pending, u, &ekf->C, dt, has_bias(ekf));
-    if (++ekf->noise.samples >= NOISE_BLOCK) {
+    if (++ekf->noise.samples >= INSOLE_ZUPT_BLOCK) {
         end_block(ekf);
     }
     return INSOLE_OK;

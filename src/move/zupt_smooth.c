@@ -71,8 +71,7 @@ insole_status_t insole_zupt_smooth_push(insole_zupt_smooth_t *smooth, const inso
     node->v_mps = ekf->v_mps;
     node->q = ekf->q;
     node->P = ekf->P;
-    insole_zupt_cov_propagate(&node->P, &ekf->pending,
-                              ekf->config.sigma_accel_bias_mps2 > ZERO);
+    insole_zupt_cov_propagate(&node->P, &ekf->pending, ekf->config.sigma_accel_bias_mps2 > ZERO);
     node->trace = ekf->trace;
     smooth->newest_us = ekf->t_us;
     return INSOLE_OK;
@@ -211,19 +210,27 @@ static void pass_corrections(const insole_zupt_node_t *node, adjoint_t *adjoint)
     }
 }
 
-/* Phi' lambda and Phi' Lambda Phi: first v = v - [u]x a + G b is taken back, then p = p + v dt.
- * Each line still needs the old values of the lines below it. */
-static void pass_interval(const insole_zupt_node_t *node, adjoint_t *adjoint)
+/* p = p + v dt is taken back. Each line still needs the old values of the lines below it. */
+static void move_back(adjoint_t *adjoint, insole_real_t dt)
 {
-    insole_real_t dt = node->dt_s;
+    insole_zupt_error_t *x = &adjoint->lambda;
+    insole_zupt_cov_t *L = &adjoint->Lambda;
+    x->v = insole_vec3_add_scaled(x->v, dt, x->p);
+    L->va = insole_mat3_add_scaled(L->va, dt, L->pa);
+    L->vb = insole_mat3_add_scaled(L->vb, dt, L->pb);
+    L->vv = insole_sym3_add_scaled(insole_sym3_add_twice(L->vv, dt, L->pv), dt * dt, L->pp);
+    L->pv = insole_mat3_add_scaled(L->pv, dt, insole_sym3_full(L->pp));
+}
+
+/* v = v - [u]x a + G b is taken back. */
+static void turn_back(const insole_zupt_node_t *node, adjoint_t *adjoint)
+{
+    const insole_real_t half = INSOLE_R(0.5), one = INSOLE_R(1.0);
     insole_vec3_t u = node->u_mps;
-    insole_mat3_t G = insole_mat3_scale(insole_quat_to_mat3(node->trace.q), -dt);
+    insole_mat3_t G = insole_mat3_scale(insole_quat_to_mat3(node->trace.q), -node->dt_s);
     insole_zupt_error_t *x = &adjoint->lambda;
     x->a = insole_vec3_add(x->a, insole_vec3_cross(u, x->v));
     x->b = insole_vec3_add(x->b, insole_mat3_mul_vec_t(G, x->v));
-    x->v = insole_vec3_add_scaled(x->v, dt, x->p);
-
-    const insole_real_t half = INSOLE_R(0.5), one = INSOLE_R(1.0);
     insole_zupt_cov_t *L = &adjoint->Lambda;
     insole_mat3_t va = insole_mat3_sub(L->va, insole_mat3_mul_skew(insole_sym3_full(L->vv), u));
     insole_mat3_t vb = insole_mat3_add(L->vb, insole_mat3_mul(insole_sym3_full(L->vv), G));
@@ -236,10 +243,17 @@ static void pass_interval(const insole_zupt_node_t *node, adjoint_t *adjoint)
     L->bb = insole_sym3_add_twice(L->bb, one, insole_mat3_mul(G_t, vb_middle));
     L->pa = insole_mat3_sub(L->pa, insole_mat3_mul_skew(L->pv, u));
     L->pb = insole_mat3_add(L->pb, insole_mat3_mul(L->pv, G));
-    L->va = insole_mat3_add_scaled(va, dt, L->pa);
-    L->vb = insole_mat3_add_scaled(vb, dt, L->pb);
-    L->vv = insole_sym3_add_scaled(insole_sym3_add_twice(L->vv, dt, L->pv), dt * dt, L->pp);
-    L->pv = insole_mat3_add_scaled(L->pv, dt, insole_sym3_full(L->pp));
+    L->va = va;
+    L->vb = vb;
+}
+
+/* Phi' lambda and Phi' Lambda Phi. */
+static void pass_interval(const insole_zupt_node_t *node, adjoint_t *adjoint)
+{
+    insole_real_t half_s = INSOLE_R(0.5) * node->dt_s;
+    move_back(adjoint, half_s);
+    turn_back(node, adjoint);
+    move_back(adjoint, half_s);
 }
 
 /* From what is known after a node to what is known after the one before it. */

@@ -273,7 +273,7 @@ static inline column_t column_of(const insole_zupt_error_t *e)
     return x;
 }
 
-/** Phi by its definition: p' = p + v dt, v' = v - u x a - C b dt. */
+/** Phi by its definition: v' = v - u x a - C b dt, p' = p + dt (v + v') / 2. */
 static inline dense_t dense_phi(insole_vec3_t u, insole_mat3_t C, insole_real_t dt_s)
 {
     double x = (double)u.x, y = (double)u.y, z = (double)u.z;
@@ -285,6 +285,9 @@ static inline dense_t dense_phi(insole_vec3_t u, insole_mat3_t C, insole_real_t 
         for (int j = 0; j < 3; j++) {
             phi.at[DENSE_V + i][DENSE_A + j] = -cross[i][j];
             phi.at[DENSE_V + i][DENSE_B + j] = -d.at[i][j] * (double)dt_s;
+            for (int k = DENSE_A; k <= DENSE_B; k += DENSE_B - DENSE_A) {
+                phi.at[DENSE_P + i][k + j] = 0.5 * (double)dt_s * phi.at[DENSE_V + i][k + j];
+            }
         }
     }
     return phi;

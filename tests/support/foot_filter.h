@@ -44,9 +44,18 @@ static inline insole_zupt_ekf_t filter_swinging(insole_rng_t *rng)
     ekf.v_mps = sample_vec3(rng, INSOLE_R(0.3));
     ekf.accel_bias_mps2 = sample_vec3(rng, INSOLE_R(0.05));
     (void)filter_feel(&ekf, FILTER_UP, sample_vec3(rng, INSOLE_R(2.0)));
+    (void)insole_zupt_ekf_settle(&ekf);
     dense_t P = dense_sample_cov(rng);
     ekf.P = dense_to_cov(&P);
     return ekf;
+}
+
+/** The filter's covariance as it is now, without touching the filter. */
+static inline insole_zupt_cov_t filter_cov(const insole_zupt_ekf_t *ekf)
+{
+    insole_zupt_ekf_t copy = *ekf;
+    (void)insole_zupt_ekf_settle(&copy);
+    return copy.P;
 }
 
 /** Samples `from`..`to` of a walk, with the corrections of its stances; sample 0 ends after
@@ -59,7 +68,7 @@ static inline void filter_walk(insole_zupt_ekf_t *ekf, const gait_t *gait, int f
         gait_reading(gait, dt * k, dt * (k + 1), &force, &rate);
         (void)filter_feel(ekf, real_of(force), real_of(rate));
         if (gait_is_still(gait, dt * k, dt * (k + 1))) {
-            (void)insole_zupt_ekf_correct(ekf, NULL);
+            (void)insole_zupt_ekf_correct(ekf, ekf->dt_s, NULL);
         }
     }
 }

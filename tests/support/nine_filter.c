@@ -6,6 +6,7 @@
 #define insole_zupt_ekf_init           nine_ekf_init
 #define insole_zupt_ekf_align          nine_ekf_align
 #define insole_zupt_ekf_predict        nine_ekf_predict
+#define insole_zupt_ekf_settle         nine_ekf_settle
 #define insole_zupt_ekf_correct        nine_ekf_correct
 #define insole_zupt_ekf_correct_height nine_ekf_correct_height
 #define insole_zupt_ekf_coast          nine_ekf_coast

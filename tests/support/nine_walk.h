@@ -62,7 +62,7 @@ static inline insole_status_t nine_call(insole_zupt_ekf_t *ekf, insole_rng_t *rn
         break;
     }
     return call % 40 < 16 && call % 2 == 1
-               ? insole_zupt_ekf_correct(ekf, NULL)
+               ? insole_zupt_ekf_correct(ekf, ekf->dt_s, NULL)
                : insole_zupt_ekf_predict(ekf, &imu, call % 11 == 0 ? 5u : 0u);
 }
 

@@ -89,7 +89,7 @@ static inline void noisy_gait_step(noisy_gait_t *run, const noisy_sample_t *samp
     (void)filter_feel(&run->ekf, real_of(accel), real_of(gyro));
     run->nis = INSOLE_R(0.0);
     if (s->still) {
-        (void)insole_zupt_ekf_correct(&run->ekf, &run->nis);
+        (void)insole_zupt_ekf_correct(&run->ekf, run->ekf.dt_s, &run->nis);
     }
 }
 

@@ -307,6 +307,55 @@ START_TEST(strides_add_up_to_the_way)
 }
 END_TEST
 
+/* ---- stances ---- */
+
+static const struct {
+    double every_s;
+    int samples; /* at 200 Hz */
+} measurings[] = {{0.0, 1}, {0.005, 1}, {0.02, 4}, {0.0218, 4}, {0.05, 10}};
+
+/* A stance's velocity is measured with its first sample, then as often as was asked for, and each
+ * time as surely as the time since the last is long. */
+START_TEST(stances_are_measured_from_time_to_time)
+{
+    insole_foot_tracker_config_t config = insole_foot_tracker_defaults;
+    walk_t walk = WALK;
+    const double sigma = (double)config.zupt_ekf.sigma_zupt_mps;
+    int since = 0, measured = 0;
+    insole_foot_counts_t before = {0};
+    worst_t due = {0.0, 0.0}, sure = {0.0, 0.0};
+    config.correct_every_s = (insole_real_t)measurings[_i].every_s;
+    record(&walk, 200.0, 0.0);
+    set_up(&shoe, &config);
+    for (uint32_t i = 0u; i < sample_count; i++) {
+        (void)insole_foot_tracker_imu(&shoe, &samples[i]);
+        while (insole_foot_tracker_next(&shoe, &fixes[0]) == INSOLE_OK) {
+            insole_foot_counts_t now = shoe.counts;
+            bool is_still = now.still > before.still, begins = now.stances > before.stances;
+            bool corrected = now.corrections > before.corrections;
+            since = begins ? 1 : since + 1;
+            if (measured > 0 || corrected) {
+                bool wanted = is_still && (begins || since == measurings[_i].samples);
+                worst_require(&due, corrected == wanted || measured == 0, i);
+            }
+            if (corrected) {
+                double variance = (double)shoe.zupt_ekf.trace.velocity_var_m2ps2;
+                double speaks_for = begins ? 1.0 : (double)measurings[_i].samples;
+                double off = variance * speaks_for / (sigma * sigma) - 1.0;
+                worst_note(&sure, measured > 0 ? fabs(off) : 0.0, i);
+                since = 0;
+                measured++;
+            }
+            before = now;
+        }
+    }
+    ASSERT_ALL_HELD(due);
+    ASSERT_WORST(sure, 1.0e-5, "(of the variance)");
+    ck_assert_int_gt(measured, 50);
+    ck_assert_uint_eq(shoe.zupt_ekf.refused, 0u);
+}
+END_TEST
+
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("foot_tracker");
@@ -321,5 +370,6 @@ Suite *insole_suite(void)
     suite_add(suite, "lost", what_is_too_uncertain_is_lost);
     suite_add(suite, "pdr", dead_reckoning_by_strides);
     suite_add(suite, "strides", strides_add_up_to_the_way);
+    suite_add_loop(suite, "stances", stances_are_measured_from_time_to_time, 5);
     return suite;
 }

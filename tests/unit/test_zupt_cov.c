@@ -27,6 +27,19 @@ static case_t make_case(insole_rng_t *rng)
     return c;
 }
 
+static insole_zupt_interval_t interval_of(const case_t *c, insole_real_t dt_s)
+{
+    insole_zupt_interval_t interval = {0};
+    insole_zupt_interval_add(&interval, c->u, &c->C, dt_s, true);
+    return interval;
+}
+
+static void propagate(case_t *c, insole_real_t dt_s, bool has_bias)
+{
+    insole_zupt_interval_t interval = interval_of(c, dt_s);
+    insole_zupt_cov_propagate(&c->P, &interval, has_bias);
+}
+
 static void forget_bias(case_t *c)
 {
     insole_mat3_t none = insole_mat3_zero();
@@ -45,7 +58,7 @@ START_TEST(propagates_like_phi_p_phi)
         case_t c = make_case(&rng);
         dense_t phi = dense_phi(c.u, c.C, dt[i % 2]);
         dense_t expected = dense_congruent(&phi, &c.dense);
-        insole_zupt_cov_propagate(&c.P, c.u, &c.C, dt[i % 2], true);
+        propagate(&c, dt[i % 2], true);
         dense_t got = dense_of(&c.P);
         worst_note(&off, dense_off(&got, &expected, &expected), i);
     }
@@ -61,7 +74,7 @@ START_TEST(nine_states_leave_the_bias_alone)
     for (int i = 0; i < TRIES; i++) {
         case_t c = make_case(&rng), with_bias;
         insole_zupt_cov_t before = c.P;
-        insole_zupt_cov_propagate(&c.P, c.u, &c.C, INSOLE_R(0.005), false);
+        propagate(&c, INSOLE_R(0.005), false);
         insole_zupt_cov_correct_velocity(&c.P, insole_sym3_diagonal(1, 1, 1), INSOLE_R(0.1),
                                          insole_vec3_zero(), false);
         worst_require(&off, memcmp(&c.P.bb, &before.bb, sizeof c.P.bb) == 0, i);
@@ -70,8 +83,8 @@ START_TEST(nine_states_leave_the_bias_alone)
         c = make_case(&rng);
         forget_bias(&c);
         with_bias = c;
-        insole_zupt_cov_propagate(&c.P, c.u, &c.C, INSOLE_R(0.005), false);
-        insole_zupt_cov_propagate(&with_bias.P, c.u, &c.C, INSOLE_R(0.005), true);
+        propagate(&c, INSOLE_R(0.005), false);
+        propagate(&with_bias, INSOLE_R(0.005), true);
         dense_t nine = dense_of(&c.P), twelve = dense_of(&with_bias.P);
         dense_t difference = dense_add(nine, -1.0, &twelve);
         for (int j = 0; j < DENSE * DENSE; j++) {
@@ -251,7 +264,8 @@ START_TEST(stays_positive_over_random_rounds)
     }
     for (int i = 0; i < 20000; i++) {
         case_t c = make_case(&rng);
-        insole_zupt_cov_propagate(&P, c.u, &c.C, INSOLE_R(0.005), n == DENSE);
+        insole_zupt_interval_t interval = interval_of(&c, INSOLE_R(0.005));
+        insole_zupt_cov_propagate(&P, &interval, n == DENSE);
         P.vv = insole_sym3_add_diagonal(P.vv, INSOLE_R(8.0e-6));
         P.aa = insole_sym3_add_diagonal(P.aa, INSOLE_R(1.0e-9));
         if (i % 200 < 80) {

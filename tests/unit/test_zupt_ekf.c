@@ -243,13 +243,13 @@ START_TEST(refuses_what_comes_before_alignment)
     insole_zupt_ekf_t ekf = filter_new();
     insole_zupt_ekf_t before = ekf;
     ck_assert_int_eq(predict_with(&ekf, 0.0, 0.0, FILTER_STEP_US), INSOLE_ERR_STATE);
-    ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, NULL), INSOLE_ERR_STATE);
+    ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, ekf.dt_s, NULL), INSOLE_ERR_STATE);
     ck_assert_int_eq(height_with(&ekf, 0.0, 0.1), INSOLE_ERR_STATE);
     ck_assert_int_eq(coast_with(&ekf, 1.0, 0.7, FILTER_STEP_US), INSOLE_ERR_STATE);
     before.refused = 4u;
     ck_assert(memcmp(&ekf, &before, sizeof ekf) == 0);
     ekf = before = filter_aligned(); /* no interval yet that the variance could be of */
-    ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, NULL), INSOLE_ERR_STATE);
+    ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, ekf.dt_s, NULL), INSOLE_ERR_STATE);
     before.refused++;
     ck_assert(memcmp(&ekf, &before, sizeof ekf) == 0);
 }
@@ -262,7 +262,7 @@ START_TEST(refuses_null)
     ck_assert_int_eq(insole_zupt_ekf_align(NULL, FILTER_UP, 0, 0, 1u), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_zupt_ekf_predict(NULL, &imu, 0u), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_zupt_ekf_predict(&ekf, NULL, 0u), INSOLE_ERR_NULL);
-    ck_assert_int_eq(insole_zupt_ekf_correct(NULL, NULL), INSOLE_ERR_NULL);
+    ck_assert_int_eq(insole_zupt_ekf_correct(NULL, INSOLE_R(0.005), NULL), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_zupt_ekf_correct_height(NULL, 0, 1), INSOLE_ERR_NULL);
     ck_assert_int_eq(insole_zupt_ekf_coast(NULL, FILTER_UP, 1, 1u), INSOLE_ERR_NULL);
 }

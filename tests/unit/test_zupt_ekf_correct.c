@@ -83,7 +83,7 @@ START_TEST(corrects_the_state_like_the_full_matrices)
         insole_zupt_ekf_t before = ekf;
         insole_real_t nis;
         dense_t K, P = dense_of(&ekf.P), expected = dense_joseph(&P, DENSE_V, 3, r, &K);
-        ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, &nis), INSOLE_OK);
+        ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, ekf.dt_s, &nis), INSOLE_OK);
         d3_t w = d33_apply(d33_of(before.C), d3_of(before.last_gyro_radps));
         d3_t z = d3_add(d3(0.09 * w.y, -0.09 * w.x, 0.0), -1.0, d3_of(before.v_mps));
         column_t innovation = {{z.x, z.y, z.z}}, at_v = {{0.0, 0.0, 0.0, z.x, z.y, z.z}};
@@ -132,11 +132,46 @@ START_TEST(weighs_a_correction_by_its_interval)
     for (int64_t us = 1250; us <= 20000; us *= 2) {
         insole_zupt_ekf_t ekf = filter_aligned();
         ck_assert_int_eq(predict_with(&ekf, 0.0, 0.0, us), INSOLE_OK);
-        ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, NULL), INSOLE_OK);
+        ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, ekf.dt_s, NULL), INSOLE_OK);
         ASSERT_NEAR((double)ekf.trace.velocity_var_m2ps2 * (double)us /
                         (stance_variance() * 5000.0),
                     1.0, 10.0 * EPS, "");
     }
+}
+END_TEST
+
+/* One correction that speaks for four intervals is as sure as four. */
+START_TEST(weighs_a_correction_by_what_it_speaks_for)
+{
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 6u);
+    for (int i = 0; i < TRIES; i++) {
+        insole_zupt_ekf_t ekf = filter_swinging(&rng);
+        const double r = stance_variance() / 4.0;
+        dense_t K, P = dense_of(&ekf.P), expected = dense_joseph(&P, DENSE_V, 3, r, &K);
+        insole_real_t still_s = INSOLE_R(4.0) * ekf.dt_s;
+        ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, still_s, NULL), INSOLE_OK);
+        dense_t got = dense_of(&ekf.P);
+        ASSERT_AT_MOST(dense_off(&got, &expected, &P), 10.0 * EPS, "(of the 1-sigmas)");
+    }
+}
+END_TEST
+
+START_TEST(refuses_a_stance_of_no_time)
+{
+    const insole_real_t bad[] = {INSOLE_R(0.0), INSOLE_R(-0.005), INSOLE_R(1.01),
+                                 (insole_real_t)NAN, (insole_real_t)INFINITY};
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 7u);
+    insole_zupt_ekf_t ekf = filter_swinging(&rng);
+    ck_assert_int_eq(filter_feel(&ekf, FILTER_UP, insole_vec3_zero()), INSOLE_OK);
+    for (size_t i = 0u; i < sizeof bad / sizeof bad[0]; i++) {
+        insole_zupt_ekf_t before = ekf;
+        ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, bad[i], NULL), INSOLE_ERR_VALUE);
+        before.refused++;
+        ck_assert(memcmp(&ekf, &before, sizeof ekf) == 0);
+    }
+    ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, INSOLE_R(1.0), NULL), INSOLE_OK);
 }
 END_TEST
 
@@ -156,9 +191,9 @@ START_TEST(rolls_with_the_foot)
         insole_vec3_t force = real_of(d33_apply(turn_y(-half), d3(accel, 0.0, 9.81)));
         insole_vec3_t gyro = insole_vec3(0, (insole_real_t)rate, 0);
         ck_assert_int_eq(filter_feel(&ekf, force, gyro), INSOLE_OK);
-        ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, NULL), INSOLE_OK);
+        ck_assert_int_eq(insole_zupt_ekf_correct(&ekf, ekf.dt_s, NULL), INSOLE_OK);
         ck_assert_int_eq(filter_feel(&stiff, force, gyro), INSOLE_OK);
-        ck_assert_int_eq(insole_zupt_ekf_correct(&stiff, NULL), INSOLE_OK);
+        ck_assert_int_eq(insole_zupt_ekf_correct(&stiff, stiff.dt_s, NULL), INSOLE_OK);
         ASSERT_NEAR(ekf.trace.velocity_mps.x, h * rate, 1.0e-4, "m/s");
     }
     ASSERT_NEAR(ekf.p_m.x, h * angle, 0.002, "m");
@@ -173,6 +208,8 @@ Suite *insole_suite(void)
     suite_add(suite, "velocity", corrects_the_state_like_the_full_matrices);
     suite_add(suite, "height", corrects_the_height_like_the_full_matrices);
     suite_add(suite, "variance and interval", weighs_a_correction_by_its_interval);
+    suite_add(suite, "variance and stance", weighs_a_correction_by_what_it_speaks_for);
+    suite_add(suite, "a stance of no time", refuses_a_stance_of_no_time);
     suite_add(suite, "a foot that rolls", rolls_with_the_foot);
     return suite;
 }

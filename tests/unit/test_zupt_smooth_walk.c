@@ -35,7 +35,7 @@ static void walk_and_smooth(uint64_t seed, uint32_t room)
                       d3_add(samples[k].end.v, 1.0, run.tremble),
                       run.ekf.p_m,
                       run.ekf.v_mps,
-                      run.ekf.P.pp,
+                      filter_cov(&run.ekf).pp,
                       d33_of(run.ekf.C)};
         records[k] = r;
         if (insole_zupt_smooth_push(&smooth, &run.ekf) == INSOLE_ERR_ROOM) {

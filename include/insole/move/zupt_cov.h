@@ -9,10 +9,14 @@
  *      insole_zupt_cov_propagate(&P, &interval, true);                     for some of them at once
  *      dx = insole_zupt_cov_correct_velocity(&P, W, r, z, true);
  *
- *  What the filter and the smoother share; nothing is checked here. Over an interval the velocity's
- *  error changes, v' = v - U a + G b with U = [sum of f dt]x and G = -(sum of C dt), and that of
- *  the position grows by the mean of the velocity's before and after: p' = p + dt (v + v') / 2.
- *  Nothing that is zero in this Phi is multiplied.
+ *  What the filter and the smoother share; nothing is checked here. Over a sample the velocity's
+ *  error changes, v' = v - U a + G b with U = [f dt]x and G = -C dt, and that of the position grows
+ *  by the mean of the velocity's before and after: p' = p + dt (v + v') / 2. Of several samples
+ *
+ *      Phi = [I I.T -S G.T/2; 0 I -U G; 0 0 I 0; 0 0 0 I]
+ *
+ *  is their product, but for the way in which the bias reaches the position: as if it had acted
+ *  evenly. Nothing that is zero in it is multiplied.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -52,9 +56,10 @@ typedef struct {
 /** Phi of one sample, or of several in a row. */
 typedef struct {
     insole_real_t time_s;
-    insole_vec3_t u_mps; /**< integral of the specific force, n */
+    insole_vec3_t u_mps; /**< U: integral of the specific force, n */
+    insole_vec3_t s_m;   /**< S: integral of that */
 #if INSOLE_ZUPT_STATES == 12
-    insole_mat3_t C_s; /**< integral of the rotation from b to n */
+    insole_mat3_t G_s; /**< G: minus the integral of the rotation from b to n */
 #endif
 } insole_zupt_interval_t;
 
@@ -65,36 +70,40 @@ static inline void insole_zupt_interval_add(insole_zupt_interval_t *interval, in
                                             const insole_mat3_t *C, insole_real_t dt_s,
                                             bool has_bias)
 {
-    interval->time_s += dt_s;
+    insole_vec3_t middle = insole_vec3_add_scaled(interval->u_mps, INSOLE_R(0.5), u);
+    interval->s_m = insole_vec3_add_scaled(interval->s_m, dt_s, middle);
     interval->u_mps = insole_vec3_add(interval->u_mps, u);
+    interval->time_s += dt_s;
 #if INSOLE_ZUPT_STATES == 12
     if (has_bias) {
-        interval->C_s = insole_mat3_add_scaled(interval->C_s, dt_s, *C);
+        interval->G_s = insole_mat3_add_scaled(interval->G_s, -dt_s, *C);
     }
 #else
     (void)C, (void)has_bias;
 #endif
 }
 
-/* The rows of p' = p + v dt; a symmetric entry takes one half from the old and one from the new
- * column. */
-static inline void insole_zupt_move_rows(insole_zupt_cov_t *P, insole_real_t dt)
+/* The rows of p' = p + T v - S a: rows of P_pv and of P_pa x s give to that of P_pp, one half the
+ * old and one the new ones. */
+static inline void insole_zupt_move_rows(insole_zupt_cov_t *P, insole_vec3_t s, insole_real_t T)
 {
     insole_sym3_t *pp = &P->pp;
-    insole_mat3_t was = P->pv;
-    insole_mat3_t pv = insole_mat3_add_scaled(was, dt, insole_sym3_full(P->vv));
-    pp->xx += dt * (pv.r0.x + was.r0.x);
-    pp->xy += dt * (pv.r0.y + was.r1.x);
-    pp->xz += dt * (pv.r0.z + was.r2.x);
-    pp->yy += dt * (pv.r1.y + was.r1.y);
-    pp->yz += dt * (pv.r1.z + was.r2.y);
-    pp->zz += dt * (pv.r2.z + was.r2.z);
-    P->pv = pv;
-    P->pa = insole_mat3_add_scaled(P->pa, dt, P->va);
+    insole_mat3_t pv = P->pv, pa = P->pa;
+    insole_mat3_t s_aa = insole_mat3_skew_mul(s, insole_sym3_full(P->aa));
+    insole_mat3_t s_av = insole_mat3_skew_mul(s, insole_mat3_transpose(P->va));
+    P->pa = insole_mat3_sub(insole_mat3_add_scaled(pa, T, P->va), s_aa);
+    P->pv = insole_mat3_sub(insole_mat3_add_scaled(pv, T, insole_sym3_full(P->vv)), s_av);
+    insole_mat3_t old = insole_mat3_mul_skew(pa, s), new = insole_mat3_mul_skew(P->pa, s);
+    pp->xx += T * (P->pv.r0.x + pv.r0.x) + (new.r0.x + old.r0.x);
+    pp->xy += T * (P->pv.r0.y + pv.r1.x) + (new.r0.y + old.r1.x);
+    pp->xz += T * (P->pv.r0.z + pv.r2.x) + (new.r0.z + old.r2.x);
+    pp->yy += T * (P->pv.r1.y + pv.r1.y) + (new.r1.y + old.r1.y);
+    pp->yz += T * (P->pv.r1.z + pv.r2.y) + (new.r1.z + old.r2.y);
+    pp->zz += T * (P->pv.r2.z + pv.r2.z) + (new.r2.z + old.r2.z);
 }
 
-/* The rows of v' = v - U a: a row r of P_va gives r x u to that of P_vv, one half the old and one
- * the new row; in an entry off the diagonal the two have u in common. */
+/* The rows of v' = v - U a, and P_pv: a row r of P_va gives r x u to that of P_vv, one half the old
+ * and one the new row; in an entry off the diagonal the two have u in common. */
 static inline void insole_zupt_turn_rows(insole_zupt_cov_t *P, insole_vec3_t u)
 {
     insole_sym3_t *vv = &P->vv;
@@ -110,15 +119,15 @@ static inline void insole_zupt_turn_rows(insole_zupt_cov_t *P, insole_vec3_t u)
     P->va = va;
 }
 
-/* What the bias adds to the velocity, and its own rows. Not with nine states. */
+/* What the bias adds to position and velocity, and its own rows. Not with nine states. */
 void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P, const insole_zupt_interval_t *interval);
 
 /** Phi P Phi' over an interval. */
 static inline void insole_zupt_cov_propagate(insole_zupt_cov_t *P,
                                              const insole_zupt_interval_t *interval, bool has_bias)
 {
-    insole_real_t half_s = INSOLE_R(0.5) * interval->time_s;
-    insole_zupt_move_rows(P, half_s); /* [TwoOrder (20)-(21)], [TwoOrder (24)] */
+    /* [TwoOrder (20)-(21)], [TwoOrder (24)] */
+    insole_zupt_move_rows(P, interval->s_m, interval->time_s);
     insole_zupt_turn_rows(P, interval->u_mps);
 #if INSOLE_ZUPT_STATES == 12
     if (has_bias) {
@@ -127,7 +136,6 @@ static inline void insole_zupt_cov_propagate(insole_zupt_cov_t *P,
 #else
     (void)has_bias;
 #endif
-    insole_zupt_move_rows(P, half_s);
 }
 
 /** P H' w with H = [0 I 0 0]: what a measurement of the velocity tells of all. */

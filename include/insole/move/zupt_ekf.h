@@ -72,6 +72,11 @@ typedef struct {
 
 extern const insole_zupt_ekf_config_t insole_zupt_ekf_defaults;
 
+/** So many samples at most wait for the covariance. Long enough that their yaw noise is not lost to
+ *  rounding beside a day's yaw variance, short enough that noise of a swing still turns into
+ *  velocity within the swing. */
+enum { INSOLE_ZUPT_BLOCK = 8 };
+
 /** @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE for a setting out of its range */
 insole_status_t insole_zupt_ekf_check(const insole_zupt_ekf_config_t *config);
 
@@ -115,8 +120,8 @@ typedef struct {
     insole_mat3_t C;          /**< rotation matrix of q */
     insole_vec3_t force_mps2; /**< n, mean specific force of the last interval */
     insole_vec3_t last_accel_mps2, last_gyro_radps; /**< b, of the last sample, bias removed */
-    insole_zupt_cov_t P;              /**< before `pending` */
-    insole_zupt_interval_t pending;   /**< the newest samples, which P has not seen yet */
+    insole_zupt_cov_t P;                            /**< before `pending` */
+    insole_zupt_interval_t pending; /**< the newest samples, which P has not seen yet */
     insole_zupt_noise_t noise;
     insole_zupt_trace_t trace;
     uint32_t refused; /**< calls answered with a negative status */

@@ -51,11 +51,11 @@ typedef struct {
     uint32_t still_count;
     uint64_t still_since_us;
     bool was_still, coasting, finished;
-    insole_quat_t first_q;  /**< attitude when the foot was aligned */
-    insole_quat_t stance_q; /**< in the last stance */
-    uint64_t stance_us;     /**< last sample of it */
+    insole_quat_t first_q;      /**< attitude when the foot was aligned */
+    insole_quat_t stance_q;     /**< in the last stance */
+    uint64_t stance_us;         /**< last sample of it */
     insole_real_t unmeasured_s; /**< of it, since its velocity was measured */
-    insole_real_t floor_m;  /**< height of the floor being walked on */
+    insole_real_t floor_m;      /**< height of the floor being walked on */
     bool has_floor;
 
     insole_foot_walk_t walk;
@@ -84,7 +84,8 @@ insole_status_t insole_foot_tracker_start(insole_foot_tracker_t *tracker,
  *          INSOLE_ERR_STATE after finish */
 insole_status_t insole_foot_tracker_imu(insole_foot_tracker_t *tracker, const insole_imu_t *imu);
 
-/** The next fix, one per sample that came through the screen, in the order of time.
+/** The next fix, one per sample that came through the screen, in the order of time. Its variances
+ *  may be those of up to INSOLE_ZUPT_BLOCK samples before.
  *  @return INSOLE_ERR_STATE when none is ready */
 insole_status_t insole_foot_tracker_next(insole_foot_tracker_t *tracker, insole_fix_t *fix);
 
