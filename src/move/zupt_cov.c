@@ -84,27 +84,14 @@ INSOLE_COLD void insole_zupt_cov_correct_height(insole_zupt_cov_t *P, insole_rea
 
 #if INSOLE_ZUPT_STATES == 12
 
-/* What G b gives to the symmetric block of rows whose covariance with b it leads from `was` to
- * `now`: one half by the old, one by the new rows. */
-static insole_sym3_t gained(const insole_mat3_t *G, const insole_mat3_t *was,
-                            const insole_mat3_t *now)
-{
-    insole_sym3_t s = {insole_vec3_dot(insole_vec3_add(now->r0, was->r0), G->r0),
-                       insole_vec3_dot(now->r0, G->r1) + insole_vec3_dot(was->r1, G->r0),
-                       insole_vec3_dot(now->r0, G->r2) + insole_vec3_dot(was->r2, G->r0),
-                       insole_vec3_dot(insole_vec3_add(now->r1, was->r1), G->r1),
-                       insole_vec3_dot(now->r1, G->r2) + insole_vec3_dot(was->r2, G->r1),
-                       insole_vec3_dot(insole_vec3_add(now->r2, was->r2), G->r2)};
-    return s;
-}
-
 /* p = p + T v - S a and v = v - U a are done but for their covariance with b; it follows what b
- * adds: G b.T/2 and G b. */
+ * adds, G b.T/2 and G b. Of the rows after that, with Z = G P_bb G':
+ *     P_vv + P_vb G' + G P_bv - Z,   P_pp + T/2 (P_pb G' + G P_bp) - (T/2)^2 Z. */
 INSOLE_FLAT void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P,
                                                 const insole_zupt_interval_t *interval)
 {
+    const insole_real_t T = interval->time_s, half_s = INSOLE_R(0.5) * T;
     const insole_mat3_t *G = &interval->G_s;
-    insole_real_t T = interval->time_s, half_s = INSOLE_R(0.5) * T;
     insole_mat3_t Gb = insole_mat3_mul_sym(*G, P->bb), Ga = insole_mat3_mul_t(*G, P->ab);
     insole_mat3_t pb = insole_mat3_sub(insole_mat3_add_scaled(P->pb, T, P->vb),
                                        insole_mat3_skew_mul(interval->s_m, P->ab));
@@ -113,10 +100,13 @@ INSOLE_FLAT void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P,
     P->va = insole_mat3_add(P->va, Ga);
     P->pb = insole_mat3_add_scaled(pb, half_s, Gb);
     P->vb = insole_mat3_add(vb, Gb);
-    P->pv = insole_mat3_add(P->pv, insole_mat3_mul_t(P->pb, *G));
-    P->pv = insole_mat3_add_scaled(P->pv, half_s, insole_mat3_mul_t(*G, vb));
-    P->pp = insole_sym3_add_scaled(P->pp, half_s, gained(G, &pb, &P->pb));
-    P->vv = insole_sym3_add(P->vv, gained(G, &vb, &P->vb));
+    insole_sym3_t Z = insole_mat3_mul_t_sym(Gb, *G);
+    insole_mat3_t pbG = insole_mat3_mul_t(P->pb, *G), vbG = insole_mat3_mul_t(P->vb, *G);
+    P->pp = insole_sym3_add_scaled(insole_sym3_add_twice(P->pp, half_s, pbG), -half_s * half_s, Z);
+    P->vv =
+        insole_sym3_add_scaled(insole_sym3_add_twice(P->vv, INSOLE_R(1.0), vbG), INSOLE_R(-1.0), Z);
+    insole_mat3_t before = insole_mat3_transpose(insole_mat3_sub(vbG, insole_sym3_full(Z)));
+    P->pv = insole_mat3_add_scaled(insole_mat3_add(P->pv, pbG), half_s, before);
 }
 
 /* K_x = P_xv+ / r */

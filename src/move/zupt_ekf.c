@@ -83,26 +83,20 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_init(insole_zupt_ekf_t *ekf,
     ekf->config = *config;
     ekf->gravity_mps2 = config->gravity_mps2;
     ekf->q = insole_quat_identity();
-    ekf->C = insole_quat_to_mat3(ekf->q);
     add_bias_var(&ekf->P, insole_square(config->sigma_accel_bias_mps2));
     return INSOLE_OK;
 }
 
 /* The covariance alone; noise waits for the end of its block. */
-static void settle(insole_zupt_ekf_t *ekf)
-{
-    static const insole_zupt_interval_t nothing;
-    insole_zupt_cov_propagate(&ekf->P, &ekf->pending, has_bias(ekf));
-    ekf->pending = nothing;
-}
-
 INSOLE_APART insole_status_t insole_zupt_ekf_settle(insole_zupt_ekf_t *ekf)
 {
+    static const insole_zupt_interval_t nothing;
     if (!ekf) {
         return INSOLE_ERR_NULL;
     }
     if (ekf->pending.time_s > ZERO) {
-        settle(ekf);
+        insole_zupt_cov_propagate(&ekf->P, &ekf->pending, has_bias(ekf));
+        ekf->pending = nothing;
     }
     return INSOLE_OK;
 }
@@ -126,7 +120,6 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_align(insole_zupt_ekf_t *ekf,
     insole_real_t half = INSOLE_R(0.5) * insole_wrap_pi(yaw_rad);
     insole_quat_t turn = insole_quat_from_half(insole_vec3(ZERO, ZERO, half));
     ekf->q = insole_quat_normalize(insole_quat_mul(turn, level));
-    ekf->C = insole_quat_to_mat3(ekf->q);
     ekf->v_mps = insole_vec3_zero();
     ekf->last_accel_mps2 = mean_accel_mps2;
     ekf->last_gyro_radps = insole_vec3_zero();
@@ -154,7 +147,6 @@ static void turn(insole_zupt_ekf_t *ekf, insole_vec3_t half_rad)
     insole_quat_t dq = half2 < INSOLE_QUAT_SMALL_RAD2 ? insole_quat_from_small(half_rad, half2)
                                                       : insole_quat_from_half(half_rad);
     ekf->q = insole_quat_mul(ekf->q, dq); /* [TwoOrder (12)-(14)] */
-    ekf->C = insole_quat_to_mat3(ekf->q);
 }
 
 /* Velocity and position, [TwoOrder (16)-(17)]; u: what the specific force adds to the velocity. */
@@ -172,9 +164,9 @@ static void move(insole_zupt_ekf_t *ekf, insole_vec3_t u, insole_real_t dt)
  *     the half turn     half = w dt / 2, and with coning  half + cone x half,  cone = b_w dt / 12;
  *     the mean force seen from the attitude at the end    a + (a + b_a / 6) x (half - cone):
  * half the turn is taken back, and sculling added but for a share of the product of the ways.
- * @return specific force in n times dt */
-static insole_vec3_t mechanise(insole_zupt_ekf_t *ekf, insole_vec3_t accel, insole_vec3_t gyro,
-                               insole_real_t dt)
+ * What it did to the errors waits for the covariance. */
+static void mechanise(insole_zupt_ekf_t *ekf, insole_vec3_t accel, insole_vec3_t gyro,
+                      insole_real_t dt)
 {
     insole_real_t part = INSOLE_R(0.5) * ekf->config.point_share, half_dt = INSOLE_R(0.5) * dt;
     insole_vec3_t back_accel = insole_vec3_sub(ekf->last_accel_mps2, accel);
@@ -187,20 +179,22 @@ static insole_vec3_t mechanise(insole_zupt_ekf_t *ekf, insole_vec3_t accel, inso
     ekf->last_accel_mps2 = accel;
     ekf->last_gyro_radps = gyro;
     turn(ekf, insole_vec3_add(half, insole_vec3_cross(cone, half)));
-    ekf->force_mps2 = insole_mat3_mul_vec(ekf->C, force);
+    insole_mat3_t C = insole_quat_to_mat3(ekf->q);
+    ekf->force_mps2 = insole_mat3_mul_vec(C, force);
     insole_vec3_t u = insole_vec3_scale(ekf->force_mps2, dt);
     move(ekf, u, dt);
-    return u;
+    insole_zupt_interval_add(&ekf->pending, u, &C, dt, has_bias(ekf));
 }
 
-INSOLE_COLD static void gather_clip_noise(insole_zupt_ekf_t *ekf, uint32_t clipped)
+INSOLE_COLD static void add_clip_noise(insole_zupt_ekf_t *ekf, uint32_t clipped)
 {
-    insole_mat3_t axes = insole_mat3_transpose(ekf->C);
+    insole_mat3_t axes = insole_mat3_transpose(insole_quat_to_mat3(ekf->q));
     const insole_vec3_t *axis[3] = {&axes.r0, &axes.r1, &axes.r2};
     insole_real_t var = insole_square(ekf->config.clip_noise_rad_rts) * ekf->dt_s;
+    (void)insole_zupt_ekf_settle(ekf);
     for (uint32_t m = 0u; m < 3u; m++) {
-        ekf->noise.clip_rad2 = insole_sym3_add_outer(
-            ekf->noise.clip_rad2, (clipped >> m & 1u) != 0u ? var : ZERO, *axis[m]);
+        insole_real_t var_m = (clipped >> m & 1u) != 0u ? var : ZERO;
+        ekf->P.aa = insole_sym3_add_outer(ekf->P.aa, var_m, *axis[m]);
     }
 }
 
@@ -219,12 +213,11 @@ static void add_noise(insole_zupt_ekf_t *ekf)
                              insole_square(c->gyro_turn_noise_rts) * noise->turned_rad2ps;
     insole_real_t velocity = insole_square(c->accel_noise_mps_rts) * noise->time_s;
     ekf->P.vv = insole_sym3_add_diagonal(ekf->P.vv, velocity);
-    ekf->P.aa = insole_sym3_add_diagonal(insole_sym3_add(ekf->P.aa, noise->clip_rad2), attitude);
+    ekf->P.aa = insole_sym3_add_diagonal(ekf->P.aa, attitude);
     if (has_bias(ekf)) {
         add_bias_var(&ekf->P, insole_square(c->accel_bias_walk_mps2_rts) * noise->time_s);
     }
     noise->time_s = noise->turned_rad2ps = ZERO;
-    noise->clip_rad2 = insole_sym3_zero();
     noise->samples = 0u;
 }
 
@@ -260,12 +253,11 @@ INSOLE_FLAT insole_status_t insole_zupt_ekf_predict(insole_zupt_ekf_t *ekf, cons
     ekf->t_us = imu->t_us;
     gather_noise(ekf, turn2, dt);
     insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, insole_zupt_ekf_accel_bias(ekf));
-    insole_vec3_t u = mechanise(ekf, accel, imu->gyro_radps, dt);
+    mechanise(ekf, accel, imu->gyro_radps, dt);
     begin_trace(ekf, INSOLE_ZUPT_STEP_PREDICT);
     if (clipped != 0u) {
-        gather_clip_noise(ekf, clipped);
+        add_clip_noise(ekf, clipped);
     }
-    insole_zupt_interval_add(&ekf->pending, u, &ekf->C, dt, has_bias(ekf));
     if (++ekf->noise.samples >= INSOLE_ZUPT_BLOCK) {
         end_block(ekf);
     }
@@ -284,13 +276,12 @@ static void inject(insole_zupt_ekf_t *ekf, const insole_zupt_error_t *dx, bool b
     insole_vec3_t half = insole_vec3_scale(dx->a, INSOLE_R(0.5));
     insole_quat_t cayley = insole_quat(INSOLE_R(1.0), half.x, half.y, half.z);
     ekf->q = insole_quat_unit(insole_quat_mul(cayley, ekf->q)); /* [TwoOrder (30)-(31)] */
-    ekf->C = insole_quat_to_mat3(ekf->q);
 }
 
 /* Velocity of a sensor at roll_height_m over the line on which the foot rolls. */
 static insole_vec3_t rolling_velocity(const insole_zupt_ekf_t *ekf)
 {
-    insole_vec3_t w = insole_mat3_mul_vec(ekf->C, ekf->last_gyro_radps);
+    insole_vec3_t w = insole_quat_rotate(ekf->q, ekf->last_gyro_radps);
     insole_real_t h = ekf->config.roll_height_m;
     return insole_vec3(w.y * h, -w.x * h, ZERO); /* w x (0, 0, h) */
 }

@@ -279,7 +279,6 @@ INSOLE_COLD static void end_coast(insole_foot_tracker_t *t, const insole_labelle
     insole_real_t bow = insole_foot_walk_bow(&t->walk, insole_seconds(t->stance_us, s->imu.t_us));
     insole_quat_t turn = insole_quat_from_yaw(bow);
     t->zupt_ekf.q = insole_quat_level(insole_quat_mul(turn, t->stance_q), mean_accel);
-    t->zupt_ekf.C = insole_quat_to_mat3(t->zupt_ekf.q);
     t->coasting = false;
     t->has_floor = false;
     t->counts.realigned++;

@@ -39,7 +39,6 @@ static inline insole_zupt_ekf_t filter_swinging(insole_rng_t *rng)
 {
     insole_zupt_ekf_t ekf = filter_aligned();
     ekf.q = sample_quat(rng);
-    ekf.C = insole_quat_to_mat3(ekf.q);
     ekf.p_m = sample_vec3(rng, INSOLE_R(1.0));
     ekf.v_mps = sample_vec3(rng, INSOLE_R(0.3));
     ekf.accel_bias_mps2 = sample_vec3(rng, INSOLE_R(0.05));

@@ -176,7 +176,6 @@ static inline void motion_put(insole_zupt_ekf_t *ekf, const insole_zupt_ekf_conf
     ekf->p_m = real_of(m->p);
     ekf->v_mps = real_of(m->v);
     ekf->q = quat_of(m->R);
-    ekf->C = insole_quat_to_mat3(ekf->q);
     ekf->last_accel_mps2 = real_of(motion_force(m));
     ekf->last_gyro_radps = real_of(m->w);
 }

@@ -13,11 +13,11 @@
 #include "insole/move/zupt_ekf.h"
 #include "sample.h"
 
-enum { NINE_CALLS = 2000, NINE_REALS = 6 + 4 + 9 + 45 };
+enum { NINE_CALLS = 2000, NINE_REALS = 6 + 4 + 45 };
 
 typedef struct {
     insole_status_t status[NINE_CALLS];
-    insole_real_t state[NINE_CALLS][NINE_REALS]; /**< p v q C and the covariance */
+    insole_real_t state[NINE_CALLS][NINE_REALS]; /**< p v q and the covariance */
 } nine_walk_t;
 
 /** What the filter of nine_filter.c says. */
@@ -36,11 +36,10 @@ static inline void nine_note(const insole_zupt_ekf_t *ekf, insole_real_t *state)
     const struct {
         insole_vec3_t p, v;
         insole_quat_t q;
-        insole_mat3_t C;
         insole_sym3_t pp, vv, aa;
         insole_mat3_t pv, pa, va;
-    } all = {ekf->p_m,  ekf->v_mps, ekf->q,    ekf->C,    ekf->P.pp,
-             ekf->P.vv, ekf->P.aa,  ekf->P.pv, ekf->P.pa, ekf->P.va};
+    } all = {ekf->p_m,  ekf->v_mps, ekf->q,    ekf->P.pp, ekf->P.vv,
+             ekf->P.aa, ekf->P.pv,  ekf->P.pa, ekf->P.va};
     memcpy(state, &all, sizeof all);
 }
 

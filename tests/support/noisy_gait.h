@@ -63,7 +63,6 @@ static inline void noisy_gait_begin(noisy_gait_t *run, const gait_t *gait, uint6
     motion_put(&run->ekf, &config, &m, 1000000u);
     insole_quat_t wrong = insole_quat_from_rotvec(real_of(d3_scale(tilt, -1.0)));
     run->ekf.q = insole_quat_normalize(insole_quat_mul(wrong, run->ekf.q));
-    run->ekf.C = insole_quat_to_mat3(run->ekf.q);
     run->bias = noisy_normal(&run->rng, (double)config.sigma_accel_bias_mps2);
     run->tremble = run->drift = d3(0.0, 0.0, 0.0);
     run->nis = INSOLE_R(0.0);

@@ -69,7 +69,8 @@ END_TEST
 
 static double heading_of_x(const insole_zupt_ekf_t *ekf)
 {
-    return atan2((double)ekf->C.r1.x, (double)ekf->C.r0.x);
+    return atan2((double)insole_quat_to_mat3(ekf->q).r1.x,
+                 (double)insole_quat_to_mat3(ekf->q).r0.x);
 }
 
 /* However the sensor is mounted: what it feels points up, and its x axis where it was told. */
@@ -85,9 +86,10 @@ START_TEST(aligns_in_any_mounting)
         felt = i == 1 ? insole_vec3(0, FILTER_UP.z, 0) : felt;
         insole_real_t told = sample_between(&rng, -INSOLE_PI, INSOLE_PI);
         ck_assert_int_eq(insole_zupt_ekf_align(&ekf, felt, INSOLE_R(0.02), told, 7u), INSOLE_OK);
-        insole_vec3_t up = insole_mat3_mul_vec(ekf.C, felt);
+        insole_vec3_t up = insole_mat3_mul_vec(insole_quat_to_mat3(ekf.q), felt);
         worst_note(&tilt, d3_norm(d3_add(d3_of(up), -1.0, d3_of(FILTER_UP))) / 9.81, i);
-        double level = hypot((double)ekf.C.r0.x, (double)ekf.C.r1.x);
+        double level =
+            hypot((double)insole_quat_to_mat3(ekf.q).r0.x, (double)insole_quat_to_mat3(ekf.q).r1.x);
         worst_note(&yaw, level * fabs(remainder(heading_of_x(&ekf) - (double)told, 2.0 * PI)), i);
         ck_assert(ekf.aligned && ekf.t_us == 7u && insole_vec3_norm2(ekf.v_mps) == 0);
     }
@@ -350,7 +352,7 @@ START_TEST(stays_finite_whatever_comes)
         ck_assert(fabs(P.at[i / DENSE][i % DENSE]) < HUGE_VAL);
     }
     ck_assert(insole_vec3_is_finite(ekf.p_m) && insole_vec3_is_finite(ekf.v_mps));
-    ASSERT_NEAR(d3_norm(d33_of(ekf.C).r0), 1.0, 10.0 * EPS, "");
+    ASSERT_NEAR(d3_norm(d33_of(insole_quat_to_mat3(ekf.q)).r0), 1.0, 10.0 * EPS, "");
 }
 END_TEST
 

@@ -131,7 +131,7 @@ static deviation_t follow(motion_t motion, double seconds, unsigned step_us, dou
     m = motion(1.0e-6 * steps * step_us);
     deviation_t off = {d3_norm(d3_add(d3_of(ekf.p_m), -1.0, m.p)),
                        d3_norm(d3_add(d3_of(ekf.v_mps), -1.0, m.v)),
-                       d3_norm(turn_between(m.R, d33_of(ekf.C)))};
+                       d3_norm(turn_between(m.R, d33_of(insole_quat_to_mat3(ekf.q))))};
     return off;
 }
 

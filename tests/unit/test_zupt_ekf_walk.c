@@ -22,7 +22,7 @@ static void add_nees(const noisy_gait_t *run)
 {
     const moment_t *truth = &samples[run->next - 1].end;
     column_t x = noisy_gait_error(run, truth, d3_of(run->ekf.p_m), d3_of(run->ekf.v_mps),
-                                  d33_of(run->ekf.C));
+                                  d33_of(insole_quat_to_mat3(run->ekf.q)));
     dense_t P = dense_of(&run->ekf.P);
     nees_t *sum = &nees[run->next / EVERY - 1];
     for (int i = 0; i < 4; i++) {
@@ -131,7 +131,8 @@ START_TEST(follows_a_perfect_sensor)
     insole_zupt_ekf_t ekf = walk_mounted(turn_z(0.0), SAMPLES);
     moment_t truth = gait_moment(&gait, 1.0e-6 * FILTER_STEP_US * SAMPLES);
     ASSERT_AT_MOST(d3_norm(d3_add(d3_of(ekf.p_m), -1.0, truth.p)), 5.0e-4, "m after 13 m");
-    ASSERT_AT_MOST(d3_norm(turn_between(truth.R, d33_of(ekf.C))), 1.0e-5, "rad");
+    ASSERT_AT_MOST(d3_norm(turn_between(truth.R, d33_of(insole_quat_to_mat3(ekf.q)))), 1.0e-5,
+                   "rad");
 }
 END_TEST
 

@@ -95,7 +95,8 @@ static void step(insole_zupt_ekf_t *ekf, const gait_t *gait, int k, dense_t *wai
     if (settle) {
         (void)insole_zupt_ekf_settle(ekf);
     }
-    b->Phi = dense_phi(insole_vec3_scale(ekf->force_mps2, ekf->dt_s), ekf->C, ekf->dt_s);
+    b->Phi = dense_phi(insole_vec3_scale(ekf->force_mps2, ekf->dt_s), insole_quat_to_mat3(ekf->q),
+                       ekf->dt_s);
     dense_t Q = sample_noise(ekf, has_bias);
     *waiting = dense_add(*waiting, 1.0, &Q);
     b->P_before = k > 0 ? dense_congruent(&b->Phi, &book[k - 1].P_after) : dense_of(&ekf->P);
@@ -131,7 +132,6 @@ static void walk_on(insole_zupt_smooth_t *smooth, double sigma_bias, bool settle
     ekf.config.sigma_accel_bias_mps2 = (insole_real_t)sigma_bias;
     ekf.config.point_share = INSOLE_R(0.0);
     ekf.q = quat_of(m.R);
-    ekf.C = insole_quat_to_mat3(ekf.q);
     memset(&ekf.noise, 0, sizeof ekf.noise);
     if (!(sigma_bias > 0.0)) {
         insole_mat3_t none = insole_mat3_zero();
@@ -158,7 +158,7 @@ static column_t moved_by(const insole_zupt_smoothed_t *s, const insole_zupt_ekf_
     column_put(&x, DENSE_P, insole_vec3_sub(s->p_m, ekf->p_m));
     column_put(&x, DENSE_V, insole_vec3_sub(s->v_mps, ekf->v_mps));
     d33_t C = d33_of(insole_quat_to_mat3(s->q));
-    column_put(&x, DENSE_A, real_of(turn_between(d33_of(ekf->C), C)));
+    column_put(&x, DENSE_A, real_of(turn_between(d33_of(insole_quat_to_mat3(ekf->q)), C)));
     return x;
 }
 

@@ -36,7 +36,7 @@ static void walk_and_smooth(uint64_t seed, uint32_t room)
                       run.ekf.p_m,
                       run.ekf.v_mps,
                       filter_cov(&run.ekf).pp,
-                      d33_of(run.ekf.C)};
+                      d33_of(insole_quat_to_mat3(run.ekf.q))};
         records[k] = r;
         if (insole_zupt_smooth_push(&smooth, &run.ekf) == INSOLE_ERR_ROOM) {
             (void)insole_zupt_smooth_run(&smooth, room / 2u);

@@ -85,7 +85,6 @@ insole_status_t insole_zupt_ekf_check(const insole_zupt_ekf_config_t *config);
 typedef struct {
     insole_real_t time_s;
     insole_real_t turned_rad2ps; /**< square of the turn rate, summed over the time */
-    insole_sym3_t clip_rad2;     /**< noise about axes that were clipped */
     uint32_t samples;
 } insole_zupt_noise_t;
 
@@ -108,7 +107,6 @@ typedef struct {
 
 typedef struct {
     insole_zupt_ekf_config_t config;
-    bool aligned;
     uint64_t t_us;      /**< of the last sample */
     insole_real_t dt_s; /**< of the last interval */
     insole_real_t gravity_mps2;
@@ -117,7 +115,6 @@ typedef struct {
 #if INSOLE_ZUPT_STATES == 12
     insole_vec3_t accel_bias_mps2; /**< b */
 #endif
-    insole_mat3_t C;          /**< rotation matrix of q */
     insole_vec3_t force_mps2; /**< n, mean specific force of the last interval */
     insole_vec3_t last_accel_mps2, last_gyro_radps; /**< b, of the last sample, bias removed */
     insole_zupt_cov_t P;                            /**< before `pending` */
@@ -125,6 +122,7 @@ typedef struct {
     insole_zupt_noise_t noise;
     insole_zupt_trace_t trace;
     uint32_t refused; /**< calls answered with a negative status */
+    bool aligned;
 } insole_zupt_ekf_t;
 
 /** What is taken off a sample, b; none with nine states. */

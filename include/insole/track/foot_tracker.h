@@ -50,21 +50,18 @@ typedef struct {
     insole_vec3_t still_accel; /**< sum over the stance that will give the attitude */
     uint32_t still_count;
     uint64_t still_since_us;
-    bool was_still, coasting, finished;
     insole_quat_t first_q;      /**< attitude when the foot was aligned */
     insole_quat_t stance_q;     /**< in the last stance */
     uint64_t stance_us;         /**< last sample of it */
     insole_real_t unmeasured_s; /**< of it, since its velocity was measured */
     insole_real_t floor_m;      /**< height of the floor being walked on */
-    bool has_floor;
 
     insole_foot_walk_t walk;
     insole_real_t gap_turn_rad2; /**< variance of the turns in gaps since the last stance */
     insole_foot_anchor_t anchor;
-    insole_start_t start; /**< told, not yet reached */
-    bool has_start;
+    insole_start_t start;   /**< told, not yet reached */
     insole_stride_t stride; /**< newest, until taken */
-    bool has_stride;
+    bool was_still, coasting, finished, has_floor, has_start, has_stride;
     insole_zero_velocity_t zero_velocity; /**< last: it is large */
 } insole_foot_tracker_t;
 
