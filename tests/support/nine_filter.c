@@ -10,6 +10,7 @@
 #define insole_zupt_ekf_correct        nine_ekf_correct
 #define insole_zupt_ekf_correct_height nine_ekf_correct_height
 #define insole_zupt_ekf_coast          nine_ekf_coast
+#define insole_zupt_cov_propagate      nine_cov_propagate
 #define insole_zupt_cov_of_velocity    nine_cov_of_velocity
 #define insole_zupt_cov_of_height      nine_cov_of_height
 #define insole_zupt_cov_correct_height nine_cov_correct_height

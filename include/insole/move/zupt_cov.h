@@ -83,60 +83,9 @@ static inline void insole_zupt_interval_add(insole_zupt_interval_t *interval, in
 #endif
 }
 
-/* The rows of p' = p + T v - S a: rows of P_pv and of P_pa x s give to that of P_pp, one half the
- * old and one the new ones. */
-static inline void insole_zupt_move_rows(insole_zupt_cov_t *P, insole_vec3_t s, insole_real_t T)
-{
-    insole_sym3_t *pp = &P->pp;
-    insole_mat3_t pv = P->pv, pa = P->pa;
-    insole_mat3_t s_aa = insole_mat3_skew_mul(s, insole_sym3_full(P->aa));
-    insole_mat3_t s_av = insole_mat3_skew_mul(s, insole_mat3_transpose(P->va));
-    P->pa = insole_mat3_sub(insole_mat3_add_scaled(pa, T, P->va), s_aa);
-    P->pv = insole_mat3_sub(insole_mat3_add_scaled(pv, T, insole_sym3_full(P->vv)), s_av);
-    insole_mat3_t old = insole_mat3_mul_skew(pa, s), new = insole_mat3_mul_skew(P->pa, s);
-    pp->xx += T * (P->pv.r0.x + pv.r0.x) + (new.r0.x + old.r0.x);
-    pp->xy += T * (P->pv.r0.y + pv.r1.x) + (new.r0.y + old.r1.x);
-    pp->xz += T * (P->pv.r0.z + pv.r2.x) + (new.r0.z + old.r2.x);
-    pp->yy += T * (P->pv.r1.y + pv.r1.y) + (new.r1.y + old.r1.y);
-    pp->yz += T * (P->pv.r1.z + pv.r2.y) + (new.r1.z + old.r2.y);
-    pp->zz += T * (P->pv.r2.z + pv.r2.z) + (new.r2.z + old.r2.z);
-}
-
-/* The rows of v' = v - U a, and P_pv: a row r of P_va gives r x u to that of P_vv, one half the old
- * and one the new row; in an entry off the diagonal the two have u in common. */
-static inline void insole_zupt_turn_rows(insole_zupt_cov_t *P, insole_vec3_t u)
-{
-    insole_sym3_t *vv = &P->vv;
-    insole_mat3_t was = P->va;
-    P->pv = insole_mat3_add(P->pv, insole_mat3_mul_skew(P->pa, u));
-    insole_mat3_t va = insole_mat3_sub(was, insole_mat3_skew_mul(u, insole_sym3_full(P->aa)));
-    vv->xx += insole_vec3_cross(insole_vec3_add(va.r0, was.r0), u).x;
-    vv->xy += u.x * va.r0.z - u.y * was.r1.z + u.z * (was.r1.y - va.r0.x);
-    vv->xz += u.z * was.r2.y - u.x * va.r0.y + u.y * (va.r0.x - was.r2.z);
-    vv->yy += insole_vec3_cross(insole_vec3_add(va.r1, was.r1), u).y;
-    vv->yz += u.y * va.r1.x - u.z * was.r2.x + u.x * (was.r2.z - va.r1.y);
-    vv->zz += insole_vec3_cross(insole_vec3_add(va.r2, was.r2), u).z;
-    P->va = va;
-}
-
-/* What the bias adds to position and velocity, and its own rows. Not with nine states. */
-void insole_zupt_cov_propagate_bias(insole_zupt_cov_t *P, const insole_zupt_interval_t *interval);
-
 /** Phi P Phi' over an interval. */
-static inline void insole_zupt_cov_propagate(insole_zupt_cov_t *P,
-                                             const insole_zupt_interval_t *interval, bool has_bias)
-{
-    /* [TwoOrder (20)-(21)], [TwoOrder (24)] */
-    insole_zupt_move_rows(P, interval->s_m, interval->time_s);
-    insole_zupt_turn_rows(P, interval->u_mps);
-#if INSOLE_ZUPT_STATES == 12
-    if (has_bias) {
-        insole_zupt_cov_propagate_bias(P, interval);
-    }
-#else
-    (void)has_bias;
-#endif
-}
+void insole_zupt_cov_propagate(insole_zupt_cov_t *P, const insole_zupt_interval_t *interval,
+                               bool has_bias);
 
 /** P H' w with H = [0 I 0 0]: what a measurement of the velocity tells of all. */
 insole_zupt_error_t insole_zupt_cov_of_velocity(const insole_zupt_cov_t *P, insole_vec3_t w);
