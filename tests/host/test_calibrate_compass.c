@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "calibrations.h"
 #include "compass_legs.h"
-#include "files.h"
 #include "mall.h"
 #include "near.h"
 #include "suite.h"
@@ -145,13 +145,7 @@ static const option_t options[] = {
 
 static const char *calibrate(const char *const *sessions, size_t count)
 {
-    arguments_t arguments;
-    ck_assert(options_parse(&arguments, "calibrate", options, 0, NULL, &failure));
-    FILE *file = tmpfile();
-    bool is_good = calibrate_compass(&arguments, sessions, count, file, &failure);
-    options_free(&arguments);
-    const char *text = text_of(file);
-    return is_good ? text : NULL;
+    return calibrated(calibrate_compass, options, "", sessions, count, &failure);
 }
 
 static double north_in(const char *text)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "ap_file.h"
-#include "files.h"
+#include "calibrations.h"
 #include "near.h"
 #include "rtt.h"
 #include "suite.h"
@@ -26,20 +26,7 @@ static const option_t options[] = {{"aps", "FILE", ""},
 /* What is printed for words like "--aps a.csv"; NULL when it refuses. */
 static const char *calibrate(const char *words, const char *const *sessions, size_t count)
 {
-    static char copy[2000];
-    char *argv[16];
-    int argc = 0;
-    arguments_t arguments;
-    snprintf(copy, sizeof copy, "%s", words);
-    for (char *word = strtok(copy, " "); word != NULL; word = strtok(NULL, " ")) {
-        argv[argc++] = word;
-    }
-    ck_assert(options_parse(&arguments, "calibrate", options, argc, argv, &failure));
-    FILE *file = tmpfile();
-    bool is_good = calibrate_pathloss(&arguments, sessions, count, file, &failure);
-    options_free(&arguments);
-    const char *text = text_of(file);
-    return is_good ? text : NULL;
+    return calibrated(calibrate_pathloss, options, words, sessions, count, &failure);
 }
 
 /* A value and its standard error. */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "files.h"
+#include "calibrations.h"
 #include "insole/move/step_length.h"
 #include "mall.h"
 #include "near.h"
@@ -21,24 +21,10 @@ static const option_t options[] = {{"distance", "M", ""},
 
 static const char *calibrate(const char *distance, const char *const *sessions, size_t count)
 {
-    arguments_t arguments;
-    char option[64];
-    snprintf(option, sizeof option, "--distance=%s", distance != NULL ? distance : "");
-    char *word = option;
-    ck_assert(
-        options_parse(&arguments, "calibrate", options, distance != NULL ? 1 : 0, &word, &failure));
-    FILE *file = tmpfile();
-    bool is_good = calibrate_steplength(&arguments, sessions, count, file, &failure);
-    options_free(&arguments);
-    const char *text = text_of(file);
-    return is_good ? text : NULL;
-}
-
-static double value_of(const char *text, const char *key)
-{
-    const char *at = strstr(text, key);
-    ck_assert_msg(at != NULL, "no %s in:\n%s", key, text);
-    return strtod(at + strlen(key) + 3u, NULL);
+    char words[64];
+    snprintf(words, sizeof words, "%s%s", distance != NULL ? "--distance=" : "",
+             distance != NULL ? distance : "");
+    return calibrated(calibrate_steplength, options, words, sessions, count, &failure);
 }
 
 /* A phone that bobs at 2 Hz for `seconds`, walking at 1.4 m/s. */

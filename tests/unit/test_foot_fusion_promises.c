@@ -16,15 +16,6 @@ static uint32_t run_reference(const fusion_case_t *c)
     return fix_count;
 }
 
-static void check_same(uint32_t from, uint32_t to)
-{
-    for (uint32_t i = from; i < to; i++) {
-        if (!is_same_fix(&fixes[i], &reference[i])) {
-            ck_abort_msg("fix %u differs", i);
-        }
-    }
-}
-
 static void check_sane(void)
 {
     for (uint32_t i = 0; i < fix_count; i++) {
@@ -46,7 +37,7 @@ START_TEST(equal_seeds_give_equal_bits_others_do_not)
     memset(fusion_particles, 0x5a, sizeof fusion_particles);
     run_case(&c);
     ck_assert_uint_eq(fix_count, count);
-    check_same(0u, count);
+    expect_same_fixes(fixes, reference, 0u, count);
     c.seed++;
     run_case(&c);
     ck_assert_uint_eq(fix_count, count);
@@ -69,7 +60,7 @@ START_TEST(fixes_of_a_prefix_are_a_prefix_of_the_fixes)
     set_up(&c);
     run(&c, &fusion, 0u, cut);
     ck_assert_uint_ge(fix_count + 50u, cut);
-    check_same(0u, fix_count);
+    expect_same_fixes(fixes, reference, 0u, fix_count);
     finish(&c, &fusion);
     ck_assert_uint_eq(fix_count, cut);
 }
@@ -92,7 +83,7 @@ START_TEST(in_slices_or_as_a_whole)
     }
     finish(&c, &fusion);
     ck_assert_uint_eq(fix_count, count);
-    check_same(0u, count);
+    expect_same_fixes(fixes, reference, 0u, count);
 }
 END_TEST
 
@@ -157,7 +148,7 @@ START_TEST(a_copy_goes_on_bit_for_bit)
     run(&c, &other, cut, sample_count);
     finish(&c, &other);
     ck_assert_uint_eq(fix_count, count);
-    check_same(0u, count);
+    expect_same_fixes(fixes, reference, 0u, count);
 }
 END_TEST
 
