@@ -42,7 +42,9 @@ INSOLE_COLD insole_status_t insole_phone_tracker_init(insole_phone_tracker_t *tr
     tracker->radio = radio;
     tracker->counts = (insole_phone_counts_t){0u};
     tracker->t_us = 0u;
-    tracker->has_time = tracker->coasting = tracker->finished = tracker->has_fix = false;
+    tracker->starts = 0u;
+    tracker->trusts_pointing = tracker->has_time = tracker->coasting = false;
+    tracker->finished = tracker->has_fix = false;
     tracker->fix = (insole_fix_t){0u};
     (void)insole_phone_walk_init(&tracker->walk, &config->walk, &parts->guide);
     (void)insole_screen_init(&tracker->screen, &config->screen);

@@ -584,9 +584,13 @@ refuses 2 'insole stream: --every 0: expected a whole number from 1 to 65535' \
     stream walk.csv --every 0 --out a.bin
 refuses 2 'insole stream: --out walk.csv would overwrite what is read' stream walk.csv --out walk.csv
 refuses 1 'bad.csv:1: too few fields: expected imu,t,ax,ay,az,gx,gy,gz' stream bad.csv --out a.bin
+[ ! -e a.bin ] || fail 'a refusal has left a file'
 run stream walk.csv --out walk.bin
 status_is 0; empty out; has err 'readings, 0 scans, 0 ranges'
 [ "$(od -An -tx1 -N3 walk.bin)" = ' a5 48 24' ] || fail 'a stream does not begin with a head'
+cp walk.bin kept.bin; cp walk.csv torn.csv; printf 'imu,1e6\n' >>torn.csv
+run stream torn.csv --out kept.bin; status_is 1
+cmp -s kept.bin walk.bin || fail 'a log that breaks off has cost an older stream'
 run stream walk.csv --accel-range 1 --out a.bin; status_is 0; has err '  clipped: '
 printf 'rss,1,lobby,-50\nrss,1,nowhere,-60\n' >heard.csv
 run stream walk.csv heard.csv --aps aps.csv --out a.bin; status_is 0; has err ' 1 scans,'

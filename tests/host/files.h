@@ -68,4 +68,14 @@ static inline const char *content_of(const char *path)
     return text_of(file);
 }
 
+/** How often something is in a text. */
+static inline int count_of(const char *text, const char *what)
+{
+    int count = 0;
+    for (; (text = strstr(text, what)) != NULL; text++) {
+        count++;
+    }
+    return count;
+}
+
 #endif

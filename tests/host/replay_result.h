@@ -10,6 +10,7 @@
 #define INSOLE_TESTS_HOST_REPLAY_RESULT_H
 
 #include <check.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "replay.h"
@@ -69,6 +70,21 @@ static inline track_t replay_result_take_rows(replay_result_t *result)
     memset(&result->rows, 0, sizeof result->rows);
     replay_result_clear(result);
     return rows;
+}
+
+/** The first n rows of two tracks hold the same bits (but for padding). */
+static inline void replay_result_same_rows(const track_t *a, const track_t *b, size_t n)
+{
+    ck_assert_uint_le(n, a->count);
+    ck_assert_uint_le(n, b->count);
+    for (size_t i = 0u; i < n; i++) {
+        const track_row_t *p = &a->rows[i], *q = &b->rows[i];
+        ck_assert_msg(memcmp(p, q, offsetof(track_row_t, state)) == 0 && p->state == q->state,
+                      "row %lu at %.6f and %.6f s: x %.17g and %.17g m, var_x %.17g and %.17g m^2, "
+                      "state %d and %d",
+                      (unsigned long)i, 1e-6 * (double)p->t_us, 1e-6 * (double)q->t_us, p->x_m,
+                      q->x_m, p->var_x_m2, q->var_x_m2, (int)p->state, (int)q->state);
+    }
 }
 
 #endif

@@ -58,15 +58,6 @@ static inline int row_in(const reproduce_paper_t *paper, const char *label)
     return -1;
 }
 
-static inline int count_of(const char *text, const char *piece)
-{
-    int count = 0;
-    for (const char *at = strstr(text, piece); at != NULL; at = strstr(at + 1, piece)) {
-        count++;
-    }
-    return count;
-}
-
 /* A claim speaks of rows that are there, and against print of what is printed. */
 static inline void check_claims(const reproduce_paper_t *paper)
 {

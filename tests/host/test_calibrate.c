@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "files.h"
+#include "calibrations.h"
 #include "foot_walk.h"
 #include "near.h"
 #include "readings.h"
@@ -15,37 +15,16 @@ static failure_t failure;
 
 static const double two_pi = 6.283185307179586;
 
-static const option_t options[] = {{"turns", "N", ""},
-                                   {"accel-unit", "UNIT", ""},
-                                   {"gyro-unit", "UNIT", ""},
-                                   {NULL, NULL, NULL}};
+static const option_t options[] = {
+    {"turns", "N", ""}, {"accel-unit", "UNIT", ""}, {"gyro-unit", "UNIT", ""}, {NULL, NULL, NULL}};
 
-typedef bool (*calibration_t)(const arguments_t *arguments, const char *const *sessions,
-                              size_t count, FILE *file, failure_t *failure);
-
-/* What a calibration prints; NULL when it refuses. */
 static const char *calibrate(calibration_t calibration, const char *turns,
                              const char *const *sessions, size_t count)
 {
-    arguments_t arguments;
-    char option[64];
-    snprintf(option, sizeof option, "--turns=%s", turns != NULL ? turns : "");
-    char *word = option;
-    ck_assert(options_parse(&arguments, "calibrate", options, turns != NULL ? 1 : 0, &word,
-                            &failure));
-    FILE *file = tmpfile();
-    bool is_good = calibration(&arguments, sessions, count, file, &failure);
-    options_free(&arguments);
-    const char *text = text_of(file);
-    return is_good ? text : NULL;
-}
-
-/* Value of a key in what was printed. */
-static double value_of(const char *text, const char *key)
-{
-    const char *at = strstr(text, key);
-    ck_assert_msg(at != NULL, "no %s in:\n%s", key, text);
-    return strtod(at + strlen(key) + 3u, NULL);
+    char words[64];
+    snprintf(words, sizeof words, "%s%s", turns != NULL ? "--turns=" : "",
+             turns != NULL ? turns : "");
+    return calibrated(calibration, options, words, sessions, count, &failure);
 }
 
 static double noise(double sigma)
@@ -146,7 +125,9 @@ static const char *write_disturbed(int what)
         double t = 0.01 * i, swing = t > 3.0 && t < 4.0 ? sin(two_pi * 2.0 * (t - 3.0)) : 0.0;
         double tilted = t > 3.5 ? 0.1 : 0.0;
         fprintf(file, "imu,%.2f,%.4f,0,%.4f,%.4f,0,%.4f\n", t,
-                what == 0 ? 2.0 * swing : what == 1 ? 9.81 * sin(tilted) : 0.0,
+                what == 0   ? 2.0 * swing
+                : what == 1 ? 9.81 * sin(tilted)
+                            : 0.0,
                 what == 1 ? 9.81 * cos(tilted) : 9.81, what == 2 ? 0.2 * swing : 0.0,
                 what == 3 ? 0.3 : 0.0);
     }
@@ -171,8 +152,7 @@ START_TEST(a_short_rest_is_refused)
     const double accel[3] = {0.0, 0.0, 9.81}, gyro[3] = {0.0, 0.0, 0.0};
     const char *const path = write_rest("short.csv", accel, gyro, 1.0);
     ck_assert_ptr_null(calibrate(calibrate_imu, NULL, &path, 1u));
-    ck_assert_str_eq(failure.text,
-                     SCRATCH "/short.csv: shorter than 2 s: expected a longer rest");
+    ck_assert_str_eq(failure.text, SCRATCH "/short.csv: shorter than 2 s: expected a longer rest");
 }
 END_TEST
 
@@ -361,8 +341,7 @@ START_TEST(few_strides_are_refused)
 {
     const char *const path = write_walk("few.csv", 9, 0.0);
     ck_assert_ptr_null(calibrate(calibrate_stride, NULL, &path, 1u));
-    ck_assert_str_eq(failure.text,
-                     "insole calibrate stride: only 9 strides: expected 10 or more");
+    ck_assert_str_eq(failure.text, "insole calibrate stride: only 9 strides: expected 10 or more");
 }
 END_TEST
 

@@ -4,8 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "calibrations.h"
 #include "compass_legs.h"
-#include "files.h"
+#include "mall.h"
 #include "near.h"
 #include "suite.h"
 
@@ -144,13 +145,7 @@ static const option_t options[] = {
 
 static const char *calibrate(const char *const *sessions, size_t count)
 {
-    arguments_t arguments;
-    ck_assert(options_parse(&arguments, "calibrate", options, 0, NULL, &failure));
-    FILE *file = tmpfile();
-    bool is_good = calibrate_compass(&arguments, sessions, count, file, &failure);
-    options_free(&arguments);
-    const char *text = text_of(file);
-    return is_good ? text : NULL;
+    return calibrated(calibrate_compass, options, "", sessions, count, &failure);
 }
 
 static double north_in(const char *text)
@@ -205,27 +200,22 @@ END_TEST
 
 /* ---- recordings ------------------------------------------------------------------------- */
 
-/* The recordings stand beside the checkout, or nowhere. Halves of the walks agree about north. */
+/* Halves of the walks agree about north. */
 START_TEST(recorded_walks_agree_about_north)
 {
-    enum { WALKS = 106 };
-    static char paths[WALKS][600];
+    enum { WALKS = MALL_WALKS };
+    static char paths[WALKS][MALL_PATH];
     const char *halves[2][WALKS / 2];
     double north[2];
-    const char *tests = strstr(__FILE__, "tests/host/");
     for (int i = 0; i < WALKS; i++) {
-        snprintf(paths[i], sizeof paths[0], "%.*s../shared/data/phone/mall_F1/p%03d",
-                 tests != NULL ? (int)(tests - __FILE__) : 0, __FILE__, i);
+        mall_path(paths[i], i, "");
         halves[i % 2][i / 2] = paths[i];
     }
-    char name[640];
-    snprintf(name, sizeof name, "%s/imu.csv", paths[0]);
-    FILE *file = fopen(name, "r");
-    if (file == NULL) {
-        printf("SKIPPED: no recordings in ../shared/data/phone/mall_F1\n");
+    char path[MALL_PATH];
+    mall_path(path, 0, "imu.csv");
+    if (!recorded_is_there(path)) {
         return;
     }
-    fclose(file);
     for (int i = 0; i < 2; i++) {
         const char *text = calibrate(halves[i], WALKS / 2);
         ck_assert_msg(text != NULL, "%s", failure.text);

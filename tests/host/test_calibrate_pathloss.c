@@ -5,8 +5,9 @@
 #include <stdlib.h>
 
 #include "ap_file.h"
-#include "files.h"
+#include "calibrations.h"
 #include "near.h"
+#include "rtt.h"
 #include "suite.h"
 
 #ifdef INSOLE_HOST_HAS_SIMULATOR
@@ -25,20 +26,7 @@ static const option_t options[] = {{"aps", "FILE", ""},
 /* What is printed for words like "--aps a.csv"; NULL when it refuses. */
 static const char *calibrate(const char *words, const char *const *sessions, size_t count)
 {
-    static char copy[2000];
-    char *argv[16];
-    int argc = 0;
-    arguments_t arguments;
-    snprintf(copy, sizeof copy, "%s", words);
-    for (char *word = strtok(copy, " "); word != NULL; word = strtok(NULL, " ")) {
-        argv[argc++] = word;
-    }
-    ck_assert(options_parse(&arguments, "calibrate", options, argc, argv, &failure));
-    FILE *file = tmpfile();
-    bool is_good = calibrate_pathloss(&arguments, sessions, count, file, &failure);
-    options_free(&arguments);
-    const char *text = text_of(file);
-    return is_good ? text : NULL;
+    return calibrated(calibrate_pathloss, options, words, sessions, count, &failure);
 }
 
 /* A value and its standard error. */
@@ -63,27 +51,13 @@ static measured_t measured(const char *text, const char *key)
 static const char *const walks[] = {"31", "32", "35", "36", "39", "40", "43", "45"};
 enum { WALKS = sizeof walks / sizeof walks[0] };
 
-/* Path of a file in ../shared/data beside the checkout. */
+/* Path of a recording. */
 static const char *shared(const char *name)
 {
-    static char path[8][512];
+    static char path[8][RECORDED_PATH];
     static int next;
-    const char *tests = strstr(__FILE__, "tests/host/");
-    int root = tests ? (int)(tests - __FILE__) : 0;
     next = (next + 1) % 8;
-    snprintf(path[next], sizeof path[next], "%.*s../shared/data/%s", root, __FILE__, name);
-    return path[next];
-}
-
-static bool is_there(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    if (file == NULL) {
-        printf("skipped: no %s\n", path);
-        return false;
-    }
-    fclose(file);
-    return true;
+    return recorded_path(path[next], name);
 }
 
 /* Made with p0 -38, exponent 2, walls of 4 dB of which at most 4 count, 6.81 dB for the body, and
@@ -105,7 +79,7 @@ START_TEST(buildings_of_recorded_walks_are_found_again)
         snprintf(words, sizeof words, "--plan %s/plan.csv --aps %s/aps.csv --height 1.1", folder,
                  folder);
         snprintf(name, sizeof name, "buildings/llio_%s/plan.csv", walks[i]);
-        if (!is_there(shared(name))) {
+        if (!recorded_is_there(shared(name))) {
             return;
         }
         const char *text = calibrate(words, &folder, 1u);
@@ -133,7 +107,7 @@ START_TEST(a_wrong_plan_and_a_wrong_place_are_told)
 {
     const char *const folder = shared("buildings/llio_40");
     char words[2000], line[200];
-    if (!is_there(shared("buildings/llio_40/plan.csv"))) {
+    if (!recorded_is_there(shared("buildings/llio_40/plan.csv"))) {
         return;
     }
     snprintf(words, sizeof words, "--plan %s --aps %s/aps.csv",
@@ -167,22 +141,15 @@ START_TEST(a_wrong_plan_and_a_wrong_place_are_told)
 }
 END_TEST
 
-static const struct {
-    const char *scene, *runs[11];
-} scenes[] = {
-    {"Laboratory", {"113", "124", "213", "224", "313", "324", "413", "424", "513", "524", NULL}},
-    {"Shopping_Mall", {"1013", "1024", "1113", "1124", "713", "724", "913", "924", NULL}}};
-
 /* One log of a run's records and its truth. */
-static const char *session_of_run(const char *scene, const char *run)
+static const char *session_of_run(int scene, const char *run)
 {
     char name[100], line[200];
-    snprintf(name, sizeof name, "%s_%s.csv", scene, run);
+    snprintf(name, sizeof name, "%s_%s.csv", rtt_names[scene], run);
     const char *path = scratch(name);
     FILE *to = fopen(path, "wb");
     for (int i = 0; i < 2; i++) {
-        snprintf(name, sizeof name, "rtt/%s/run_%s%s.csv", scene, run, i == 0 ? "" : ".truth");
-        FILE *from = fopen(shared(name), "rb");
+        FILE *from = rtt_open(scene, "run_", run, i == 0 ? ".csv" : ".truth.csv");
         ck_assert_ptr_nonnull(from);
         while (fgets(line, sizeof line, from) != NULL) {
             if (i == 0) {
@@ -203,12 +170,12 @@ START_TEST(recorded_signal_strengths_give_possible_values)
     const char *sessions[10];
     char name[100], words[600];
     size_t count = 0u;
-    snprintf(name, sizeof name, "rtt/%s/aps.csv", scenes[_i].scene);
-    if (!is_there(shared(name))) {
+    snprintf(name, sizeof name, "rtt/%s/aps.csv", rtt_names[_i]);
+    if (!recorded_is_there(shared(name))) {
         return;
     }
-    for (; scenes[_i].runs[count] != NULL; count++) {
-        sessions[count] = session_of_run(scenes[_i].scene, scenes[_i].runs[count]);
+    for (; count < 10u && rtt_runs[_i][count] != NULL; count++) {
+        sessions[count] = session_of_run(_i, rtt_runs[_i][count]);
     }
     snprintf(words, sizeof words, "--aps %s", shared(name));
     const char *text = calibrate(words, sessions, count);
@@ -218,7 +185,7 @@ START_TEST(recorded_signal_strengths_give_possible_values)
     ASSERT_NEAR(sigma.value, 5.0, 3.0, "dB");
     ck_assert_ptr_nonnull(strstr(text, "# propagation.wall_db is not observable, 5.00 assumed: "
                                        "there is no plan"));
-    printf("%s: p0 %.1f +- %.1f dBm, scale of the residuals %.1f dB\n", scenes[_i].scene, p0.value,
+    printf("%s: p0 %.1f +- %.1f dBm, scale of the residuals %.1f dB\n", rtt_names[_i], p0.value,
            p0.error, sigma.value);
 }
 END_TEST

@@ -1,137 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "estimator.h"
 
-#include <stdlib.h>
-
-#include "files.h"
-#include "foot_walk.h"
+#include "foot_site.h"
 #include "near.h"
-#include "replay_result.h"
 #include "suite.h"
 
-/* 20 strides of 1.3 m in a circle of about 10 m about (0, 10). */
-static const foot_walk_t walk = {2.0, 1.3, 0.12, 200.0, 20, 0.0};
-
-/* Access points A..D about it, 2.5 m high. */
-enum { APS = 4, EVENTS = 2000 };
-static const double places_m[APS][2] = {{-14.0, -3.0}, {15.0, 2.0}, {3.0, 24.0}, {-9.0, 17.0}};
-
-static replay_result_t result;
-static site_t site;
-static const char *paths[2];
-
-/* ---- the building ----------------------------------------------------------------------- */
-
-static double distance_m(int ap, double t_s)
-{
-    foot_pose_t pose = foot_walk_pose(&walk, t_s);
-    double flat_m = hypot(pose.x_m - places_m[ap][0], pose.y_m - places_m[ap][1]);
-    return hypot(flat_m, 2.5);
-}
-
-/* What is heard at a time, once a second or so; `age_s` is told. */
-static void write_radio(FILE *file, double t_s, double age_s)
-{
-    for (int i = 0; i < APS; i++) {
-        double d_m = distance_m(i, t_s - age_s);
-        fprintf(file, "rss,%.3f,%c,%.1f,%.2f\n", t_s, 'A' + i, -43.4 - 20.0 * log10(d_m), age_s);
-    }
-    fprintf(file, "rss,%.3f,stranger,-30\n", t_s);
-    for (int i = 0; i < APS; i++) {
-        fprintf(file, "range,%.3f,%c,%.2f\n", t_s, 'A' + i, distance_m(i, t_s) + 1.75);
-    }
-}
-
-/* Both logs up to a time; damage is the same for every cut. */
-static void write_logs(double until_s, const char *head)
-{
-    char line[256];
-    const char *whole = scratch("whole.csv");
-    FILE *file = fopen(whole, "wb");
-    foot_walk_write(&walk, file);
-    fclose(file);
-    paths[0] = scratch("imu.csv");
-    paths[1] = scratch("radio.csv");
-    FILE *in = fopen(whole, "rb"), *out = fopen(paths[0], "wb");
-    while (fgets(line, sizeof line, in) != NULL) {
-        double t_s = strtod(line + 4, NULL);
-        if (t_s <= until_s && !(t_s > 9.0 && t_s < 9.2)) {
-            fputs(line, out);
-        }
-    }
-    fclose(in);
-    fclose(out);
-    out = fopen(paths[1], "wb");
-    fputs(head, out);
-    for (int i = 0; 0.4 + 0.93 * i <= until_s && i < 28; i++) {
-        write_radio(out, 0.4 + 0.93 * i, 0.0);
-    }
-    fclose(out);
-}
-
-static replay_request_t request_of(method_t method)
-{
-    replay_request_t request;
-    memset(&request, 0, sizeof request);
-    request.logs = paths;
-    request.log_count = 2u;
-    request.rate_hz = 10.0;
-    request.method = method;
-    request.particles = 200u;
-    request.seed = 1u;
-    settings_init(&request.settings);
-    request.settings.fusion.foot.zupt_ekf.roll_height_m = INSOLE_R(0.0);
-    return request;
-}
-
-static void open_site(replay_request_t *request, bool has_plan, bool has_aps)
-{
-    const char *plan = scratch_file("plan.csv", "loss,4\noutline,-15,-5,16,-5,16,25,-15,25\n"
-                                                "hole,-3,7,3,7,3,13,-3,13\n");
-    char text[256];
-    int length = snprintf(text, sizeof text, "id,x,y,z\n");
-    for (int i = 0; i < APS; i++) {
-        length += snprintf(text + length, sizeof text - (size_t)length, "%c,%g,%g,2.5\n", 'A' + i,
-                           places_m[i][0], places_m[i][1]);
-    }
-    const char *aps = scratch_file("aps.csv", text);
-    ck_assert_msg(site_open(&site, has_plan ? plan : NULL, has_aps ? aps : NULL, NULL,
-                            &request->settings.propagation, &result.failure),
-                  "%s", result.failure.text);
-    request->site = &site;
-}
-
-static double mean_error_m(const track_t *rows, double from_s)
-{
-    double sum = 0.0;
-    int count = 0;
-    for (size_t i = 0u; i < rows->count; i++) {
-        double t_s = 1e-6 * (double)rows->rows[i].t_us;
-        foot_pose_t pose = foot_walk_pose(&walk, t_s);
-        if (t_s >= from_s) {
-            sum += hypot(rows->rows[i].x_m - pose.x_m, rows->rows[i].y_m - pose.y_m);
-            count++;
-        }
-    }
-    ck_assert_int_gt(count, 0);
-    return sum / count;
-}
-
-static void expect_same_rows(const track_t *a, const track_t *b, size_t n)
-{
-    ck_assert_uint_le(n, a->count);
-    ck_assert_uint_le(n, b->count);
-    for (size_t i = 0u; i < n; i++) {
-        const track_row_t *p = &a->rows[i], *q = &b->rows[i];
-        ck_assert_msg(memcmp(p, q, offsetof(track_row_t, state)) == 0 && p->state == q->state,
-                      "row %lu at %.6f s: x %.17g and %.17g m, state %d and %d", (unsigned long)i,
-                      1e-6 * (double)p->t_us, p->x_m, q->x_m, (int)p->state, (int)q->state);
-    }
-}
-
 /* ---- second order ----------------------------------------------------------------------- */
-
-static const char start_line[] = "start,0,0,0,0.06,0.2,0.05\n";
 
 START_TEST(nothing_known_of_a_building_is_the_first_order)
 {
@@ -144,7 +18,7 @@ START_TEST(nothing_known_of_a_building_is_the_first_order)
     ck_assert(!result.facts.fusion.is_fused);
     ck_assert_uint_eq(result.facts.fusion.ids, APS + 1u);
     ck_assert_uint_eq(result.rows.count, ins.count);
-    expect_same_rows(&ins, &result.rows, ins.count);
+    replay_result_same_rows(&ins, &result.rows, ins.count);
     track_free(&ins);
     replay_result_clear(&result);
 }
@@ -230,7 +104,7 @@ START_TEST(equal_seeds_give_equal_bits)
     track_t first = replay_result_take_rows(&result);
     replay_result_run(&result, &request);
     ck_assert_uint_eq(result.rows.count, first.count);
-    expect_same_rows(&result.rows, &first, first.count);
+    replay_result_same_rows(&result.rows, &first, first.count);
     replay_result_clear(&result);
     request.seed = 2u;
     replay_result_run(&result, &request);
@@ -257,90 +131,6 @@ START_TEST(a_lag_gives_the_same_rows_later)
     ck_assert_uint_eq(result.rows.count, count);
     ck_assert_uint_eq(result.events[EVENT_STRIDE], strides);
     ASSERT_AT_MOST(mean_error_m(&result.rows, 0.0), 0.5, "m");
-    replay_result_clear(&result);
-    site_free(&site);
-}
-END_TEST
-
-/* ---- radio alone ------------------------------------------------------------------------ */
-
-/* Signal strengths alone are as good as the library's solution. */
-static void expect_fix_of_library(const replay_request_t *request, const track_row_t *row,
-                                  double t_s)
-{
-    insole_rss_t readings[APS];
-    insole_anchor_fix_t fix;
-    for (uint32_t i = 0u; i < APS; i++) {
-        double rss_dbm = 0.1 * round(10.0 * (-43.4 - 20.0 * log10(distance_m((int)i, t_s))));
-        insole_rss_t reading = {i, (insole_real_t)rss_dbm, 0u};
-        readings[i] = reading;
-    }
-    ck_assert_int_eq(insole_rss_fix_solve(&request->settings.fusion.rss_fix,
-                                          &request->settings.propagation, site.building.aps, APS,
-                                          readings, APS, &fix),
-                     INSOLE_OK);
-    ASSERT_NEAR(row->x_m, (double)fix.x_m, 1e-3, "m");
-    ASSERT_NEAR(row->y_m, (double)fix.y_m, 1e-3, "m");
-}
-
-START_TEST(radio_alone_gives_a_row_for_each_scan)
-{
-    write_logs(1e9, "");
-    replay_request_t request = request_of(METHOD_WIFI);
-    open_site(&request, false, true);
-    request.logs = &paths[1];
-    request.log_count = 1u;
-    request.no_rss = _i == 0;
-    request.no_range = _i == 1;
-    replay_result_run(&result, &request);
-    ck_assert_uint_eq(result.rows.count, 28u);
-    for (size_t i = 0u; i < result.rows.count; i++) {
-        ck_assert_int_eq(result.rows.rows[i].t_us, 400000 + 930000 * (int64_t)i);
-        ck_assert_int_eq(result.rows.rows[i].state, INSOLE_FIX_TRACK);
-    }
-    if (_i == 1) {
-        expect_fix_of_library(&request, &result.rows.rows[20], 0.4 + 0.93 * 20);
-    } else {
-        ASSERT_AT_MOST(mean_error_m(&result.rows, 0.0), 1.0, "m");
-    }
-    ck_assert(result.facts.knows_place);
-    replay_result_clear(&result);
-    site_free(&site);
-}
-END_TEST
-
-START_TEST(with_an_imu_rows_of_radio_are_due_as_ever)
-{
-    write_logs(1e9, start_line);
-    replay_request_t request = request_of(METHOD_WIFI);
-    open_site(&request, false, true);
-    replay_result_run(&result, &request);
-    ck_assert_uint_eq(result.rows.count, 261u);
-    for (size_t i = 0u; i < result.rows.count; i++) {
-        const track_row_t *row = &result.rows.rows[i];
-        ck_assert_int_eq(row->t_us, 100000 * (int64_t)i);
-        ck_assert_int_eq(row->state == INSOLE_FIX_SEARCH, row->t_us <= 400000);
-    }
-    replay_result_clear(&result);
-    site_free(&site);
-}
-END_TEST
-
-/* A fix grows old. */
-START_TEST(radio_that_falls_silent_is_told)
-{
-    write_logs(1e9, "");
-    paths[1] = scratch_file("short.csv", "rss,0.998,A,-50\nrss,0.998,B,-60\n");
-    replay_request_t request = request_of(METHOD_WIFI);
-    open_site(&request, false, true);
-    replay_result_run(&result, &request);
-    for (size_t i = 0u; i < result.rows.count; i++) {
-        const track_row_t *row = &result.rows.rows[i];
-        insole_fix_state_t expected = row->t_us < 1000000                    ? INSOLE_FIX_SEARCH
-                                      : row->t_us <= 998000 + RADIO_FRESH_US ? INSOLE_FIX_TRACK
-                                                                             : INSOLE_FIX_COAST;
-        ck_assert_int_eq(row->state, expected);
-    }
     replay_result_clear(&result);
     site_free(&site);
 }
@@ -374,7 +164,7 @@ START_TEST(rows_of_a_cut_session_are_those_of_the_whole)
         while (n < rows.count && 1e-6 * (double)rows.rows[n].t_us <= cuts_s[i] - 0.5) {
             n++;
         }
-        expect_same_rows(&rows, &result.rows, n);
+        replay_result_same_rows(&rows, &result.rows, n);
         replay_result_clear(&result);
     }
     track_free(&rows);
@@ -464,9 +254,6 @@ Suite *insole_suite(void)
     suite_add(suite, "no start", radio_finds_a_start_that_nobody_tells);
     suite_add_loop(suite, "same bits", equal_seeds_give_equal_bits, 2);
     suite_add(suite, "lag", a_lag_gives_the_same_rows_later);
-    suite_add_loop(suite, "wifi", radio_alone_gives_a_row_for_each_scan, 3);
-    suite_add(suite, "wifi with IMU", with_an_imu_rows_of_radio_are_due_as_ever);
-    suite_add(suite, "silence", radio_that_falls_silent_is_told);
     suite_add_loop(suite, "prefix law", rows_of_a_cut_session_are_those_of_the_whole, ROWS(laws));
     suite_add_loop(suite, "trouble", radio_trouble_does_not_stop_the_track, ROWS(troubles));
     suite_add(suite, "start outside", a_start_outside_the_plan_is_noticed);

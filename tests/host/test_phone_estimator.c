@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "phone_estimator.h"
 
-#include <stdlib.h>
-
-#include "config_keys.h"
 #include "files.h"
-#include "insole/move/attitude_ekf.h"
-#include "insole/move/attitude_ukf.h"
 #include "near.h"
 #include "phone_logs.h"
 #include "replay_result.h"
@@ -158,20 +153,6 @@ END_TEST
 
 /* ---- the same bits ------------------------------------------------------------------------- */
 
-static void expect_same_rows(const track_t *a, const track_t *b, size_t count)
-{
-    ck_assert_uint_le(count, a->count);
-    ck_assert_uint_le(count, b->count);
-    for (size_t i = 0u; i < count; i++) {
-        const track_row_t *p = &a->rows[i], *q = &b->rows[i];
-        bool is_same = p->t_us == q->t_us && p->x_m == q->x_m && p->y_m == q->y_m &&
-                       p->heading_rad == q->heading_rad && p->var_x_m2 == q->var_x_m2 &&
-                       p->cov_xy_m2 == q->cov_xy_m2 && p->var_y_m2 == q->var_y_m2 &&
-                       p->var_heading_rad2 == q->var_heading_rad2 && p->state == q->state;
-        ck_assert_msg(is_same, "row %zu", i);
-    }
-}
-
 /* Rows of a log that ends sooner are those of the whole one, but for the last half second. */
 START_TEST(rows_of_a_cut_session_are_those_of_the_whole)
 {
@@ -191,7 +172,7 @@ START_TEST(rows_of_a_cut_session_are_those_of_the_whole)
         count++;
     }
     ck_assert_uint_ge(count, 10u);
-    expect_same_rows(&whole, &result.rows, count);
+    replay_result_same_rows(&whole, &result.rows, count);
     track_free(&whole);
     replay_result_clear(&result);
     site_free(&site);
@@ -207,7 +188,7 @@ START_TEST(replays_give_the_same_bits)
     track_t first = replay_result_take_rows(&result);
     replay_result_run(&result, &request);
     ck_assert_uint_eq(first.count, result.rows.count);
-    expect_same_rows(&first, &result.rows, first.count);
+    replay_result_same_rows(&first, &result.rows, first.count);
     track_free(&first);
     replay_result_clear(&result);
     site_free(&site);
@@ -224,7 +205,7 @@ START_TEST(truth_does_not_reach_the_tracker)
     write_logs(20.0, "start,0,4,4,0,0.2,0.05\ntruth,0,90,90\ntruth,19,-90,90\n");
     replay_result_run(&result, &request);
     ck_assert_uint_eq(result.facts.truth.count, 2u);
-    expect_same_rows(&first, &result.rows, first.count);
+    replay_result_same_rows(&first, &result.rows, first.count);
     track_free(&first);
     replay_result_clear(&result);
     site_free(&site);
@@ -271,95 +252,7 @@ START_TEST(settings_the_library_does_not_take_are_told)
 }
 END_TEST
 
-/* ---- parts --------------------------------------------------------------------------------- */
-
-static estimator_setup_t setup_of(const settings_t *settings, method_t method, bool has_map)
-{
-    static const insole_radio_map_t map;
-    estimator_setup_t setup;
-    memset(&setup, 0, sizeof setup);
-    setup.settings = settings;
-    setup.method = method;
-    setup.map = has_map ? &map : NULL;
-    return setup;
-}
-
-START_TEST(methods_are_made_of_their_parts)
-{
-    settings_t settings;
-    phone_parts_t *parts = malloc(sizeof *parts);
-    settings_init(&settings);
-    for (int i = METHOD_PHONE_BEST; i < METHODS; i++) {
-        method_t method = (method_t)i;
-        bool hears = !method_is_steps_alone(method), walks = !method_is_radio_alone(method);
-        estimator_setup_t setup = setup_of(&settings, method, true);
-        ck_assert(phone_parts_init(parts, &setup));
-        ck_assert_int_eq(parts->library.solver.calls != NULL, hears);
-        ck_assert_int_eq(parts->library.filter.calls != NULL, walks);
-        ck_assert_int_eq(parts->map != NULL, hears);
-        ck_assert_int_eq(parts->library.attitude == NULL, method == METHOD_PDR_GYRO);
-        ck_assert(!walks || parts->library.filter.state);
-        phone_parts_free(parts);
-        setup = setup_of(&settings, method, false); /* nothing to look scans up in */
-        ck_assert(phone_parts_init(parts, &setup));
-        ck_assert(!parts->library.solver.calls && !parts->map);
-        phone_parts_free(parts);
-    }
-    free(parts);
-}
-END_TEST
-
-/* Of a method with a cloud: how many particles, and whether it is told the walls. */
-START_TEST(rivals_have_clouds_of_their_own)
-{
-    static const struct {
-        method_t method;
-        uint32_t particles;
-        bool takes_plan;
-    } clouds[] = {{METHOD_PF, 1000u, false},       {METHOD_PF_KDE, 1000u, false},
-                  {METHOD_WPF, 1000u, true},       {METHOD_ZEE, 10000u, true},
-                  {METHOD_PHONE_BEST, 500u, true}, {METHOD_ML_SHIFT, 0u, false}};
-    static const insole_floor_plan_t plan;
-    const insole_building_t building = {.plan = &plan};
-    settings_t settings;
-    settings_init(&settings);
-    phone_parts_t *parts = malloc(sizeof *parts);
-    estimator_setup_t setup = setup_of(&settings, clouds[_i].method, true);
-    setup.building = &building;
-    ck_assert(phone_parts_init(parts, &setup));
-    ck_assert_uint_eq(parts->memory.count, clouds[_i].particles);
-    ck_assert((parts->step_cloud.building.plan == &plan) == clouds[_i].takes_plan);
-    phone_parts_free(parts);
-    setup.particles = 77u;
-    ck_assert(phone_parts_init(parts, &setup));
-    ck_assert_uint_eq(parts->memory.count, clouds[_i].particles > 0u ? 77u : 0u);
-    phone_parts_free(parts);
-    free(parts);
-}
-END_TEST
-
-START_TEST(fixes_may_be_made_by_another_solver)
-{
-    settings_t settings;
-    phone_parts_t *parts = malloc(sizeof *parts);
-    settings_init(&settings);
-    for (int i = METHOD_PHONE_BEST; i < METHODS; i++) {
-        estimator_setup_t setup = setup_of(&settings, (method_t)i, true);
-        ck_assert(config_set(&settings, "phone_parts.fix", "ml", &result.failure));
-        ck_assert(phone_parts_init(parts, &setup));
-        const insole_radio_solver_calls_t *calls = parts->library.solver.calls;
-        bool is_free = !method_is_steps_alone((method_t)i) && i != METHOD_PF;
-        ck_assert((calls == &insole_ml_fix_calls) == is_free);
-        ck_assert(!is_free || parts->library.solver.state == &parts->ml_fix);
-        phone_parts_free(parts);
-        ck_assert(config_set(&settings, "phone_parts.fix", "kde", &result.failure));
-        ck_assert(phone_parts_init(parts, &setup));
-        ck_assert((parts->library.solver.calls == &insole_kde_fix_calls) == is_free);
-        phone_parts_free(parts);
-    }
-    free(parts);
-}
-END_TEST
+/* ---- plans --------------------------------------------------------------------------------- */
 
 /* zee alone looks for itself all over a plan, and takes its first fix for a start. */
 START_TEST(zee_needs_no_start)
@@ -416,26 +309,6 @@ START_TEST(a_plan_of_elsewhere_is_noticed)
 }
 END_TEST
 
-START_TEST(constant_covariances_are_those_of_the_rivals_alone)
-{
-    settings_t settings;
-    phone_parts_t *parts = malloc(sizeof *parts);
-    settings_init(&settings);
-    for (int i = METHOD_EKF; i <= METHOD_UKF_CONST; i++) {
-        estimator_setup_t setup = setup_of(&settings, (method_t)i, true);
-        bool is_constant = i >= METHOD_KF_CONST;
-        ck_assert(phone_parts_init(parts, &setup));
-        ck_assert_int_eq(parts->step_fusion.config.process == INSOLE_STEP_CONSTANT, is_constant);
-        ck_assert_int_eq(parts->step_fusion.config.measurement == INSOLE_STEP_CONSTANT,
-                         is_constant);
-        ck_assert(parts->library.attitude ==
-                  (i == METHOD_EKF ? insole_attitude_ekf : insole_attitude_ukf));
-        phone_parts_free(parts);
-    }
-    free(parts);
-}
-END_TEST
-
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("phone_estimator");
@@ -448,11 +321,7 @@ Suite *insole_suite(void)
     suite_add(suite, "truth", truth_does_not_reach_the_tracker);
     suite_add_loop(suite, "trouble", trouble_does_not_stop_the_track, 6);
     suite_add(suite, "settings", settings_the_library_does_not_take_are_told);
-    suite_add(suite, "parts", methods_are_made_of_their_parts);
-    suite_add_loop(suite, "clouds", rivals_have_clouds_of_their_own, 6);
-    suite_add(suite, "solver", fixes_may_be_made_by_another_solver);
     suite_add(suite, "zee", zee_needs_no_start);
     suite_add(suite, "plan of elsewhere", a_plan_of_elsewhere_is_noticed);
-    suite_add(suite, "constant", constant_covariances_are_those_of_the_rivals_alone);
     return suite;
 }

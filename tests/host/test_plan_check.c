@@ -33,15 +33,6 @@ static const char *check_text(const char *plan, const char *aps, size_t *errors)
                        aps == NULL ? NULL : scratch_file("aps.csv", aps), errors);
 }
 
-static int count_of(const char *text, const char *what)
-{
-    int count = 0;
-    for (; (text = strstr(text, what)) != NULL; text++) {
-        count++;
-    }
-    return count;
-}
-
 #define HALL "outline,0,0,20,0,20,10,0,10\n"
 
 static const struct {

@@ -37,15 +37,6 @@ static const char *draw(const char *plan, const char *aps)
     return text;
 }
 
-static int count_of(const char *text, const char *what)
-{
-    int count = 0;
-    for (; (text = strstr(text, what)) != NULL; text++) {
-        count++;
-    }
-    return count;
-}
-
 START_TEST(everything_is_drawn)
 {
     const char *text = draw(plan_text, "id,x,y\na&b,1,1\nhall,15,8\n");

@@ -4,6 +4,7 @@
 #include "files.h"
 #include "insole/base/rng.h"
 #include "near.h"
+#include "same_tables.h"
 #include "suite.h"
 
 static radiomap_file_t file;
@@ -148,20 +149,6 @@ static const char *many_rows(uint32_t *rows)
     }
     fclose(stream);
     return path;
-}
-
-static void expect_same_tables(const insole_radio_map_t *a, const insole_radio_map_t *b)
-{
-    size_t points = a->point_count, entries = a->first[points];
-    ck_assert_uint_eq(b->point_count, points);
-    ck_assert_uint_eq(b->ap_count, a->ap_count);
-    ck_assert_mem_eq(a->spots, b->spots, points * sizeof *a->spots);
-    ck_assert_mem_eq(a->first, b->first, (points + 1u) * sizeof *a->first);
-    ck_assert_mem_eq(a->visits, b->visits, points);
-    ck_assert_mem_eq(a->aps, b->aps, entries * sizeof *a->aps);
-    ck_assert_mem_eq(a->below, b->below, entries);
-    ck_assert_mem_eq(a->spread, b->spread, entries);
-    ck_assert_mem_eq(a->counts, b->counts, entries);
 }
 
 START_TEST(what_is_written_is_read_bit_for_bit)

@@ -96,21 +96,6 @@ START_TEST(strides_and_stances_are_told)
 }
 END_TEST
 
-/* Rows from..n of two tracks hold the same bits (but for padding). */
-static void expect_same_rows(const track_t *a, const track_t *b, size_t n)
-{
-    ck_assert_uint_le(n, a->count);
-    ck_assert_uint_le(n, b->count);
-    for (size_t i = 0u; i < n; i++) {
-        const track_row_t *p = &a->rows[i], *q = &b->rows[i];
-        ck_assert_msg(memcmp(p, q, offsetof(track_row_t, state)) == 0 && p->state == q->state,
-                      "row %lu at %.6f and %.6f s: x %.17g and %.17g m, var_x %.17g and %.17g m^2, "
-                      "state %d and %d",
-                      (unsigned long)i, 1e-6 * (double)p->t_us, 1e-6 * (double)q->t_us, p->x_m,
-                      q->x_m, p->var_x_m2, q->var_x_m2, (int)p->state, (int)q->state);
-    }
-}
-
 /* ---- starts ----------------------------------------------------------------------------- */
 
 START_TEST(a_start_in_the_log_is_used)
@@ -194,7 +179,7 @@ START_TEST(truth_does_not_reach_the_tracker)
     replay_result_run(&result, &request);
     ck_assert_uint_eq(result.facts.truth.count, 3u);
     ck_assert_uint_eq(result.rows.count, before.count);
-    expect_same_rows(&result.rows, &before, before.count);
+    replay_result_same_rows(&result.rows, &before, before.count);
     track_free(&before);
     replay_result_clear(&result);
 }
@@ -210,7 +195,7 @@ START_TEST(replays_give_the_same_bits)
     replay_result_clear(&result);
     replay_result_run(&result, &request);
     ck_assert_uint_eq(result.rows.count, first.count);
-    expect_same_rows(&result.rows, &first, first.count);
+    replay_result_same_rows(&result.rows, &first, first.count);
     track_free(&first);
     replay_result_clear(&result);
 }
@@ -259,7 +244,7 @@ START_TEST(rows_of_a_cut_log_are_those_of_the_whole)
             while (n < rows.count && 1e-6 * (double)rows.rows[n].t_us <= cuts_s[i] - 0.5) {
                 n++;
             }
-            expect_same_rows(&rows, &result.rows, n);
+            replay_result_same_rows(&rows, &result.rows, n);
             replay_result_clear(&result);
         }
         track_free(&rows);

@@ -68,15 +68,6 @@ static void expect_well_formed(const char *page)
     ck_assert_msg(fault == NULL, "not well formed at: %.60s", fault);
 }
 
-static int count_of(const char *text, const char *what)
-{
-    int count = 0;
-    for (; (text = strstr(text, what)) != NULL; text++) {
-        count++;
-    }
-    return count;
-}
-
 START_TEST(a_page_tells_all)
 {
     make(300u);

@@ -4,29 +4,11 @@
 
 #include <string.h>
 
-#include "board.h"
+#include "frames.h"
 #include "near.h"
+#include "said.h"
 #include "suite.h"
-#include "text.h"
 #include "tracker.h"
-
-/* ---- a board that keeps what is said ---------------------------------------------------- */
-
-static char said[4096];
-static size_t said_count;
-
-void board_write(char byte)
-{
-    ck_assert_uint_lt(said_count, sizeof said - 1u);
-    said[said_count++] = byte;
-    said[said_count] = '\0';
-}
-
-static void forget(void)
-{
-    said_count = 0u;
-    said[0] = '\0';
-}
 
 /* ---- a tracker that writes down --------------------------------------------------------- */
 
@@ -114,29 +96,7 @@ void *tracker_state(size_t *size)
     return &told;
 }
 
-/* ---- frames ----------------------------------------------------------------------------- */
-
-static wire_frame_t frame;
-
-static void put(uint32_t number, int bytes)
-{
-    for (int i = 0; i < bytes; i++) {
-        frame.payload[frame.count++] = (uint8_t)(number >> (8 * i));
-    }
-}
-
-static void put_float(float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    put(bits, 4);
-}
-
-static void begin_frame(int kind)
-{
-    memset(&frame, 0, sizeof frame);
-    frame.kind = (uint8_t)kind;
-}
+/* ---- walks ------------------------------------------------------------------------------ */
 
 static device_answer_t take(void)
 {
@@ -159,17 +119,6 @@ static void make_head(int tracker, uint32_t fixes_per_row)
     put(77u, 4);
 }
 
-static void make_imu(uint32_t ticks, int count)
-{
-    begin_frame(WIRE_IMU);
-    for (int i = 0; i < count; i++) {
-        put(ticks + (uint32_t)i * 10000u, 4);
-        for (int k = 1; k <= 6; k++) {
-            put((uint32_t)(k % 2 == 0 ? k : -k), 2);
-        }
-    }
-}
-
 static void begin_walk(uint32_t fixes_per_row)
 {
     memset(&told, 0, sizeof told);
@@ -179,104 +128,6 @@ static void begin_walk(uint32_t fixes_per_row)
     ck_assert_int_eq(take(), DEVICE_GOES_ON);
     ck_assert_uint_eq(told.begun, 1u);
 }
-
-/* ---- text ------------------------------------------------------------------------------- */
-
-static const struct {
-    float value;
-    uint32_t decimals;
-    const char *text;
-} fixed[] = {{0.0f, 3u, "0.000"},        {1.0f, 0u, "1"},
-             {-1.25f, 2u, "-1.25"},      {0.0625f, 3u, "0.063"},
-             {-0.0001f, 3u, "0.000"},    {12.5f, 6u, "12.500000"},
-             {3.0e9f, 0u, "2147483520"}, {-3.0e9f, 3u, "-2147483.520"},
-             {0.00095f, 3u, "0.001"}};
-
-START_TEST(a_number_becomes_text)
-{
-    forget();
-    text_fixed(fixed[_i].value, fixed[_i].decimals);
-    ck_assert_str_eq(said, fixed[_i].text);
-}
-END_TEST
-
-START_TEST(times_keep_their_sign_and_their_microseconds)
-{
-    forget();
-    text_seconds(-1500000);
-    text_write(" ");
-    text_seconds(3600000001);
-    text_write(" ");
-    text_seconds(0);
-    text_write(" ");
-    text_whole(4294967295u);
-    text_write(" ");
-    text_hex(0xabcu);
-    ck_assert_str_eq(said, "-1.500000 3600.000001 0.000000 4294967295 00000abc");
-}
-END_TEST
-
-/* ---- wire ------------------------------------------------------------------------------- */
-
-static size_t to_bytes(uint8_t *bytes)
-{
-    bytes[0] = (uint8_t)WIRE_MARK;
-    bytes[1] = frame.kind;
-    bytes[2] = frame.count;
-    memcpy(bytes + 3, frame.payload, frame.count);
-    bytes[3 + frame.count] = wire_check(&frame);
-    return (size_t)frame.count + WIRE_FRAMING;
-}
-
-static uint32_t frames_in(wire_t *wire, const uint8_t *bytes, size_t count)
-{
-    uint32_t found = 0u;
-    for (size_t i = 0u; i < count; i++) {
-        found += wire_push(wire, bytes[i]) ? 1u : 0u;
-    }
-    return found;
-}
-
-START_TEST(a_frame_comes_through_noise)
-{
-    uint8_t bytes[WIRE_ROOM + WIRE_FRAMING];
-    const uint8_t noise[5] = {0u, 1u, 0xffu, 0x5au, 7u};
-    wire_t wire = {.got = 0u};
-    make_imu(3u, 2);
-    size_t count = to_bytes(bytes);
-    ck_assert_uint_eq(frames_in(&wire, noise, sizeof noise), 0u);
-    ck_assert_uint_eq(frames_in(&wire, bytes, count), 1u);
-    ck_assert_mem_eq(wire.frame.payload, frame.payload, frame.count);
-    ck_assert_uint_eq(wire.bad, 0u);
-}
-END_TEST
-
-START_TEST(no_changed_byte_goes_unnoticed)
-{
-    uint8_t bytes[WIRE_ROOM + WIRE_FRAMING], padding[WIRE_ROOM + WIRE_FRAMING] = {0};
-    make_imu(3u, 2);
-    size_t count = to_bytes(bytes);
-    for (size_t i = 0u; i < count; i++) {
-        wire_t wire = {.got = 0u};
-        bytes[i] ^= 0x10u;
-        ck_assert_uint_eq(frames_in(&wire, bytes, count), 0u);
-        (void)frames_in(&wire, padding, sizeof padding);
-        ck_assert_uint_eq(wire.bad, i == 0u ? 0u : 1u);
-        bytes[i] ^= 0x10u;
-        ck_assert_uint_eq(frames_in(&wire, bytes, count), 1u);
-    }
-}
-END_TEST
-
-START_TEST(more_than_a_payload_holds_is_no_frame)
-{
-    const uint8_t bytes[3] = {WIRE_MARK, WIRE_IMU, WIRE_ROOM + 1};
-    wire_t wire = {.got = 0u};
-    ck_assert_uint_eq(frames_in(&wire, bytes, sizeof bytes), 0u);
-    ck_assert_uint_eq(wire.bad, 1u);
-    ck_assert_uint_eq(wire.got, 0u);
-}
-END_TEST
 
 /* ---- device ----------------------------------------------------------------------------- */
 
@@ -441,12 +292,6 @@ END_TEST
 Suite *insole_suite(void)
 {
     Suite *suite = suite_create("device");
-    suite_add_loop(suite, "a number becomes text", a_number_becomes_text,
-                   (int)(sizeof fixed / sizeof fixed[0]));
-    suite_add(suite, "times", times_keep_their_sign_and_their_microseconds);
-    suite_add(suite, "noise", a_frame_comes_through_noise);
-    suite_add(suite, "changed bytes", no_changed_byte_goes_unnoticed);
-    suite_add(suite, "too long", more_than_a_payload_holds_is_no_frame);
     suite_add(suite, "readings", readings_have_their_scale_and_their_time);
     suite_add(suite, "radio and places", radio_and_places_arrive_whole);
     suite_add(suite, "rows", a_row_comes_for_every_so_many_fixes);

@@ -32,6 +32,19 @@ static inline void place_ap(uint32_t i, double x, double y)
                      INSOLE_OK);
 }
 
+/** As many as there may be or fewer, as far apart as it comes, every fourth on the x axis.
+ *  @return how far */
+static inline double place_wildly(void)
+{
+    count = 1u + insole_rng_bits(&rng) % APS_MAX;
+    double wide = pow(10.0, uniform(-3.0, 4.0));
+    for (uint32_t k = 0; k < count; k++) {
+        double x = uniform(-wide, wide);
+        place_ap(k, x, insole_rng_bits(&rng) & 3u ? uniform(-wide, wide) : 0.0);
+    }
+    return wide;
+}
+
 static inline double distance(uint32_t i, double x, double y)
 {
     return hypot(x - (double)aps[i].x_m, y - (double)aps[i].y_m);

@@ -5,6 +5,7 @@
 #ifndef INSOLE_TESTS_FIXES_H
 #define INSOLE_TESTS_FIXES_H
 
+#include <check.h>
 #include <string.h>
 
 #include "insole/base/types.h"
@@ -20,6 +21,17 @@ static inline bool is_same_fix(const insole_fix_t *a, const insole_fix_t *b)
            memcmp(&a->var_y_m2, &b->var_y_m2, sizeof a->var_y_m2) == 0 &&
            memcmp(&a->var_z_m2, &b->var_z_m2, sizeof a->var_z_m2) == 0 &&
            memcmp(&a->var_heading_rad2, &b->var_heading_rad2, sizeof a->var_heading_rad2) == 0;
+}
+
+/** From..to, of two runs. */
+static inline void expect_same_fixes(const insole_fix_t *a, const insole_fix_t *b, uint32_t from,
+                                     uint32_t to)
+{
+    for (uint32_t i = from; i < to; i++) {
+        if (!is_same_fix(&a[i], &b[i])) {
+            ck_abort_msg("fix %u differs", i);
+        }
+    }
 }
 
 /** Every number finite, no variance below zero. */

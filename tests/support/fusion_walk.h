@@ -171,6 +171,14 @@ static inline fusion_case_t usual_case(void)
     return c;
 }
 
+/** With the ranges, too. */
+static inline fusion_case_t told_everything(void)
+{
+    fusion_case_t c = usual_case();
+    c.ranges = true;
+    return c;
+}
+
 static inline insole_fusion_memory_t memory_of(const fusion_case_t *c)
 {
     insole_fusion_memory_t memory = {fusion_particles,

@@ -20,6 +20,7 @@
 #include "insole/fuse/step_fusion.h"
 #include "insole/move/attitude_ekf.h"
 #include "insole/place/kde_fix.h"
+#include "insole/track/phone_gait.h"
 #include "insole/track/phone_tracker.h"
 #include "near.h"
 #include "phone.h"
@@ -62,6 +63,15 @@ static const leg_t L_SHAPE[5] = {{3.0, false, 0.0},
                                  {3.0, false, 0}};
 static const leg_t STRAIGHT[3] = {{3.0, false, 0.0}, {20.0, true, 0.0}, {3.0, false, 0.0}};
 
+enum { HAND_GENTLE, HAND_HARD };
+
+/** One tree of one node: what shakes more is not in the hand. */
+static const insole_carry_node_t HAND_NODES[] = {
+    {INSOLE_R(6.0), 0, INSOLE_CARRY_LEAF(HAND_GENTLE), INSOLE_CARRY_LEAF(HAND_HARD)}};
+static const uint16_t HAND_ROOTS[] = {0, 1};
+static const char *const HAND_NAMES[] = {"gentle", "hard"};
+static const insole_carry_forest_t HAND_FOREST = {HAND_NODES, HAND_ROOTS, HAND_NAMES, 1, 2};
+
 typedef struct {
     uint64_t t_us;
     insole_rss_t readings[HAND_HEARD];
@@ -85,12 +95,12 @@ static inline insole_mag_t field_at(const phone_t *p)
     return mag;
 }
 
-static inline void take_step(phone_t *p, double x_m, double y_m, double rad, double turn_radps,
-                             uint32_t dt_us)
+/** A sample of a phone whose walker is there. */
+static inline void note_sample(const phone_t *p, insole_imu_t imu, double x_m, double y_m,
+                               double rad)
 {
-    d3_t rate = d33_apply(d33_transpose(p->R), d3(0.0, 0.0, turn_radps));
     ck_assert_uint_lt(sample_count, HAND_SAMPLES);
-    samples[sample_count] = phone_sample(p, rate, dt_us);
+    samples[sample_count] = imu;
     truth_x_m[sample_count] = x_m;
     truth_y_m[sample_count] = y_m;
     truth_rad[sample_count] = rad;
@@ -117,7 +127,9 @@ static inline void walk_legs(const hand_t *hand, const leg_t *legs, int count)
             x_m += way_m * cos(rad);
             y_m += way_m * sin(rad);
             walked_m += way_m;
-            take_step(&p, x_m, y_m, rad, radps, 1000000u / HAND_RATE_HZ);
+            d3_t rate = d33_apply(d33_transpose(p.R), d3(0.0, 0.0, radps));
+            insole_imu_t imu = phone_sample(&p, rate, 1000000u / HAND_RATE_HZ);
+            note_sample(&p, imu, x_m, y_m, rad);
         }
     }
 }
@@ -146,6 +158,9 @@ typedef struct {
     insole_step_fusion_t fusion;
     insole_ml_shift_t shift;
     insole_kde_fix_t kde;
+    insole_walk_heading_t heading;
+    insole_carry_t carry;
+    insole_phone_gait_t gait;
 } rig_t;
 
 typedef struct {
@@ -153,6 +168,7 @@ typedef struct {
     insole_magnetic_config_t magnetic;
     insole_attitude_method_t *attitude;
     const insole_step_filter_calls_t *filter; /**< NULL: radio alone */
+    const insole_carry_forest_t *forest;      /**< NULL: a step goes where the phone points */
     bool hears, sees;                         /**< scans, and the compass, are told */
     bool has_start;
     insole_start_t start;
@@ -199,6 +215,10 @@ static inline insole_phone_parts_t parts_of(rig_t *r, const rig_case_t *c)
         parts.solver.calls = &insole_kde_fix_calls;
         parts.solver.state = &r->kde;
     }
+    if (c->forest) {
+        parts.guide.calls = &insole_phone_gait_calls;
+        parts.guide.state = &r->gait;
+    }
     return parts;
 }
 
@@ -208,6 +228,9 @@ static inline void rig_move(rig_t *to, const rig_t *from, const rig_case_t *c)
     insole_phone_parts_t parts = parts_of(to, c);
     *to = *from;
     to->phone.parts = parts;
+    to->phone.walk.guide = parts.guide;
+    to->gait.heading = &to->heading;
+    to->gait.carry = &to->carry;
     to->phone.radio.solver = parts.solver;
     to->phone.place.filter = c->filter ? parts.filter : from->phone.place.filter;
 }
@@ -221,6 +244,12 @@ static inline void set_up(rig_t *r, const rig_case_t *c)
     ck_assert_int_eq(insole_step_fusion_init(&r->fusion, &insole_step_fusion_defaults), INSOLE_OK);
     ck_assert_int_eq(insole_ml_shift_init(&r->shift, &insole_ml_shift_defaults), INSOLE_OK);
     ck_assert_int_eq(insole_kde_fix_init(&r->kde, &insole_kde_fix_defaults), INSOLE_OK);
+    ck_assert_int_eq(insole_walk_heading_init(&r->heading, &insole_walk_heading_defaults),
+                     INSOLE_OK);
+    ck_assert_int_eq(insole_carry_init(&r->carry, &insole_carry_defaults), INSOLE_OK);
+    ck_assert_int_eq(insole_phone_gait_init(&r->gait, &insole_phone_gait_defaults, &r->heading,
+                                            &r->carry, c->forest),
+                     INSOLE_OK);
     ck_assert_int_eq(
         insole_phone_tracker_init(&r->phone, &c->config, &parts, c->hears ? &prints.map : NULL),
         INSOLE_OK);
@@ -266,6 +295,7 @@ static inline void run(rig_t *r, const rig_case_t *c, uint32_t from, uint32_t to
             (void)insole_phone_tracker_mag(&r->phone, &mags[i / HAND_MAG_EVERY]);
         }
         tell_radio(r, c, i > 0u ? samples[i - 1u].t_us : 0u, samples[i].t_us);
+        work(r, c);
     }
 }
 

@@ -8,13 +8,12 @@
 #define INSOLE_TESTS_MALL_H
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "insole/base/types.h"
+#include "recorded.h"
 
-enum { MALL_WALKS = 106, MALL_WAYPOINTS = 100, MALL_PATH = 512 };
+enum { MALL_WALKS = 106, MALL_WAYPOINTS = 100, MALL_PATH = RECORDED_PATH };
 
 /** Logs begin near zero, or before: time stamps count from here. */
 #define MALL_ZERO_S 1000.0
@@ -23,13 +22,13 @@ typedef struct {
     double t_s, x_m, y_m;
 } mall_waypoint_t;
 
-/** Where a file of a walk is, by the place of this source; its folder: of no name. */
+/** Where a file of a walk is; its folder: of no name. */
 static inline void mall_path(char path[MALL_PATH], int walk, const char *name)
 {
-    const char *tests = strstr(__FILE__, "tests/support/mall.h");
-    int root = tests ? (int)(tests - __FILE__) : 0;
-    snprintf(path, MALL_PATH, "%.*s../shared/data/phone/mall_F1/p%03d%s%s", root, __FILE__, walk,
-             *name != '\0' ? "/" : "", name);
+    char inside[100];
+    snprintf(inside, sizeof inside, "phone/mall_F1/p%03d%s%s", walk, *name != '\0' ? "/" : "",
+             name);
+    (void)recorded_path(path, inside);
 }
 
 /** Opens a file of a walk; NULL where there is none. */

@@ -70,6 +70,14 @@ static inline d33_t d33_mul(d33_t A, d33_t B)
     return c;
 }
 
+static inline d33_t d33_inverse(d33_t A)
+{
+    d3_t bc = d3_cross(A.r1, A.r2), ca = d3_cross(A.r2, A.r0), ab = d3_cross(A.r0, A.r1);
+    double per = 1.0 / d3_dot(A.r0, bc);
+    d33_t cofactors = {d3_scale(bc, per), d3_scale(ca, per), d3_scale(ab, per)};
+    return d33_transpose(cofactors);
+}
+
 static inline d33_t turn_x(double angle)
 {
     double c = cos(angle), s = sin(angle);

@@ -7,13 +7,12 @@
 #ifndef INSOLE_TESTS_RTT_H
 #define INSOLE_TESTS_RTT_H
 
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "insole/place/propagation.h"
+#include "recorded.h"
 
-enum { RTT_APS = 8, RTT_EPOCHS = 20000, RTT_PATH = 512 };
+enum { RTT_APS = 8, RTT_EPOCHS = 20000, RTT_PATH = RECORDED_PATH };
 
 /** All that arrived at one time. */
 typedef struct {
@@ -35,15 +34,12 @@ static const char *const rtt_runs[2][10] = {
     {"1013", "1024", "1113", "1124", "713", "724", "913", "924", NULL, NULL}};
 static const char *const rtt_names[2] = {"Laboratory", "Shopping_Mall"};
 
-/** Opens a file of a scene by the place of this source; NULL where there is none. */
+/** Opens a file of a scene; NULL where there is none. */
 static inline FILE *rtt_open(int scene, const char *kind, const char *run, const char *end)
 {
-    char path[RTT_PATH];
-    const char *tests = strstr(__FILE__, "tests/support/rtt.h");
-    int root = tests ? (int)(tests - __FILE__) : 0;
-    snprintf(path, sizeof path, "%.*s../shared/data/rtt/%s/%s%s%s", root, __FILE__,
-             rtt_names[scene], kind, run, end);
-    return fopen(path, "r");
+    char inside[100], path[RTT_PATH];
+    snprintf(inside, sizeof inside, "rtt/%s/%s%s%s", rtt_names[scene], kind, run, end);
+    return fopen(recorded_path(path, inside), "r");
 }
 
 static inline void rtt_read_aps(rtt_scene_t *scene, FILE *file)
@@ -112,7 +108,7 @@ static inline bool rtt_load(rtt_scene_t *scene, int number)
     FILE *file = rtt_open(number, "aps", "", ".csv");
     scene->count = 0;
     if (!file) {
-        printf("skipped: no recordings in ../shared/data/rtt\n");
+        printf("SKIPPED: no recordings in ../shared/data/rtt\n");
         return false;
     }
     rtt_read_aps(scene, file);

@@ -39,6 +39,12 @@ static inline stroll_t stroll_in(stroll_pose_t pose, d33_t mounting)
     return s;
 }
 
+/** Of a phone whose y axis points aside of the way, to the left, and is raised by the pitch. */
+static inline d33_t stroll_held(double aside_rad, double pitch_rad)
+{
+    return d33_mul(turn_z(aside_rad - 0.5 * 3.14159265358979323846), turn_x(pitch_rad));
+}
+
 static inline double stroll_heading(const stroll_t *s, double t)
 {
     double share = (t - s->turn_begin_s) / (s->turn_end_s - s->turn_begin_s);

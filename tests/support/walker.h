@@ -1,4 +1,5 @@
-/** @file walker.h  A walker's six states in double and dense, to hold the factors against.
+/** @file walker.h  A walker's filter, begun; its six states in double and dense, to hold the
+ * factors against.
  *
  *  SPDX-License-Identifier: MIT
  */
@@ -6,9 +7,21 @@
 #define INSOLE_TESTS_WALKER_H
 
 #include "dense.h"
-#include "insole/fuse/walker_cov.h"
+#include "insole/fuse/walker_ekf.h"
+#include "near.h"
 
 enum { SIX = INSOLE_WALKER_STATES };
+
+/** A filter that has started. */
+static inline insole_walker_ekf_t walker_begun(const insole_walker_ekf_config_t *config,
+                                               const insole_walker_start_t *start)
+{
+    insole_walker_ekf_t walker;
+    memset(&walker, 0, sizeof walker);
+    ck_assert_int_eq(insole_walker_ekf_init(&walker, config), INSOLE_OK);
+    ck_assert_int_eq(insole_walker_ekf_start(&walker, start), INSOLE_OK);
+    return walker;
+}
 
 /** U D U', by its definition; zeros beyond the six states. */
 static inline dense_t walker_dense(const insole_walker_cov_t *P)

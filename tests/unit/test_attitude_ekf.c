@@ -126,17 +126,6 @@ static void four_predict(four_t *f, d3_t w, double dt, double sigma)
     }
 }
 
-static d33_t inverse3(d33_t A)
-{
-    d3_t a = A.r0, b = A.r1, c = A.r2;
-    d3_t bc = d3(b.y * c.z - b.z * c.y, b.z * c.x - b.x * c.z, b.x * c.y - b.y * c.x);
-    d3_t ca = d3(c.y * a.z - c.z * a.y, c.z * a.x - c.x * a.z, c.x * a.y - c.y * a.x);
-    d3_t ab = d3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-    double per = 1.0 / d3_dot(a, bc);
-    d33_t cofactors = {d3_scale(bc, per), d3_scale(ca, per), d3_scale(ab, per)};
-    return d33_transpose(cofactors);
-}
-
 /* (15)-(16), (19)-(21). `project`: P is projected on the tangent space of the new q, as a sphere
  * asks for; else it is carried there along the turn. */
 static void four_correct(four_t *f, d3_t known, d3_t felt, double variance, int project)
@@ -172,7 +161,7 @@ static void four_correct(four_t *f, d3_t known, d3_t felt, double variance, int 
     }
     d33_t Sd = {d3(S[0][0], S[0][1], S[0][2]), d3(S[1][0], S[1][1], S[1][2]),
                 d3(S[2][0], S[2][1], S[2][2])};
-    d33_t W = inverse3(Sd);
+    d33_t W = d33_inverse(Sd);
     d3_t z = d33_apply(W, d3_add(felt, -1.0, to_b(f->q, known)));
     memcpy(before, f->q, sizeof before);
     for (int r = 0; r < 4; r++) {

@@ -14,17 +14,6 @@
 
 static const d3_t STILL = {0.0, 0.0, 0.0};
 
-static d33_t inverse3(d33_t A)
-{
-    d3_t a = A.r0, b = A.r1, c = A.r2;
-    d3_t bc = d3(b.y * c.z - b.z * c.y, b.z * c.x - b.x * c.z, b.x * c.y - b.y * c.x);
-    d3_t ca = d3(c.y * a.z - c.z * a.y, c.z * a.x - c.x * a.z, c.x * a.y - c.y * a.x);
-    d3_t ab = d3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-    double per = 1.0 / d3_dot(a, bc);
-    d33_t cofactors = {d3_scale(bc, per), d3_scale(ca, per), d3_scale(ab, per)};
-    return d33_transpose(cofactors);
-}
-
 /* A + s v w' */
 static d33_t add_outer(d33_t A, double s, d3_t v, d3_t w)
 {
@@ -54,7 +43,7 @@ static void by_the_book(d33_t *P, d3_t known, d3_t seen, double variance, d3_t *
         P_zz = add_outer(P_zz, i == 0 ? 2.0 : 1.0 / 6.0, d, d);
         P_az = add_outer(P_az, i == 0 ? 2.0 : 1.0 / 6.0, a[i], d);
     }
-    d33_t W = inverse3(P_zz), K = d33_mul(P_az, W);
+    d33_t W = d33_inverse(P_zz), K = d33_mul(P_az, W);
     d3_t innovation = d3_add(seen, -1.0, mean);
     *turn = d33_apply(K, innovation);
     *nis = d3_dot(innovation, d33_apply(W, innovation));

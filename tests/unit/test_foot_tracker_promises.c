@@ -25,15 +25,6 @@ static uint32_t run_reference(void)
     return fix_count;
 }
 
-static void check_same(uint32_t from, uint32_t to)
-{
-    for (uint32_t i = from; i < to; i++) {
-        if (!is_same_fix(&fixes[i], &reference[i])) {
-            ck_abort_msg("fix %u differs", i);
-        }
-    }
-}
-
 START_TEST(finish_gives_one_fix_per_sample_and_only_once)
 {
     insole_fix_t fix;
@@ -71,7 +62,7 @@ START_TEST(fixes_of_a_prefix_are_a_prefix_of_the_fixes)
     run(&shoe, 0u, cut);
     ck_assert_uint_le(fix_count, cut);
     ck_assert_uint_ge(fix_count + 50u, cut);
-    check_same(0u, fix_count);
+    expect_same_fixes(fixes, reference, 0u, fix_count);
     finish(&shoe);
     ck_assert_uint_eq(fix_count, cut);
 }
@@ -93,7 +84,7 @@ START_TEST(saved_and_restored_it_goes_on_bit_for_bit)
     run(&other, cut, sample_count);
     finish(&other);
     ck_assert_uint_eq(fix_count, expected);
-    check_same(0u, expected);
+    expect_same_fixes(fixes, reference, 0u, expected);
 }
 END_TEST
 
@@ -115,7 +106,7 @@ START_TEST(instances_are_independent)
     }
     finish(&shoe);
     ck_assert_uint_eq(fix_count, expected);
-    check_same(0u, expected);
+    expect_same_fixes(fixes, reference, 0u, expected);
 }
 END_TEST
 

@@ -11,7 +11,7 @@
 #include "stroll.h"
 #include "suite.h"
 
-enum { MOST_STEPS = 100, STROLL_RATE_HZ = 100, GENTLE = 0, HARD = 1 };
+enum { MOST_STEPS = 100, STROLL_RATE_HZ = 100, GENTLE = HAND_GENTLE, HARD = HAND_HARD };
 
 #define ASIDE_RAD 1.2217304764 /* 70 degrees to the left */
 
@@ -30,32 +30,19 @@ static insole_phone_gait_t gait;
 static const insole_phone_guide_t guide = {&insole_phone_gait_calls, &gait};
 static uint32_t strolled, windows;
 
-/* One tree of one node: what shakes more is not in the hand. */
-static const insole_carry_node_t NODES[] = {
-    {INSOLE_R(6.0), 0, INSOLE_CARRY_LEAF(GENTLE), INSOLE_CARRY_LEAF(HARD)}};
-static const uint16_t ROOTS[] = {0, 1};
-static const char *const NAMES[] = {"gentle", "hard"};
-static const insole_carry_forest_t FOREST = {NODES, ROOTS, NAMES, 1, 2};
-
 static const double GENTLE_BOUNCE_M = 0.02, HARD_BOUNCE_M = 0.035;
-
-/* Of a phone whose y axis points aside of the way, and is raised by the pitch. */
-static d33_t mounting(double aside_rad, double pitch_rad)
-{
-    return d33_mul(turn_z(aside_rad - HAND_PI / 2.0), turn_x(pitch_rad));
-}
 
 static void begin_stroll(bool has_carry)
 {
-    stroll = stroll_in(STROLL_HAND, mounting(ASIDE_RAD, 0.3));
+    stroll = stroll_in(STROLL_HAND, stroll_held(ASIDE_RAD, 0.3));
     stroll.heading_rad = 0.8;
     strolled = step_count = windows = 0u;
     ck_assert_int_eq(insole_walk_heading_init(&heading, &insole_walk_heading_defaults), INSOLE_OK);
     other_heading = heading;
     ck_assert_int_eq(insole_carry_init(&carry, &insole_carry_defaults), INSOLE_OK);
-    ck_assert_int_eq(
-        insole_phone_gait_init(&gait, &gait_config, &heading, has_carry ? &carry : NULL, &FOREST),
-        INSOLE_OK);
+    ck_assert_int_eq(insole_phone_gait_init(&gait, &gait_config, &heading,
+                                            has_carry ? &carry : NULL, &HAND_FOREST),
+                     INSOLE_OK);
     ck_assert_int_eq(insole_phone_walk_init(&walk, &config, &guide), INSOLE_OK);
 }
 
@@ -262,7 +249,7 @@ START_TEST(a_phone_tipped_over_is_learned_anew)
     begin_stroll(false);
     stroll_on(15.0);
     ASSERT_AT_LEAST(known(), 1.0, "1/rad^2");
-    stroll.mounting = mounting(then_rad, 0.3 + tip->by_rad);
+    stroll.mounting = stroll_held(then_rad, 0.3 + tip->by_rad);
     for (int i = 0; i < 4 * STROLL_RATE_HZ; i++) {
         (void)stroll_once();
         forgot = forgot || known() <= 0.0;
@@ -281,7 +268,7 @@ START_TEST(the_first_step_has_a_direction_however_the_phone_points)
 {
     set_up_stroll(1);
     begin_stroll(false);
-    stroll.mounting = mounting(2.8, 0.3);
+    stroll.mounting = stroll_held(2.8, 0.3);
     stroll_on(8.0);
     ck_assert(!walked[0].is_certain);
     expect_off(0u, step_count, 0.0, 0.2);
@@ -296,7 +283,7 @@ START_TEST(a_phone_turned_round_is_learned_anew)
     set_up_stroll(1);
     begin_stroll(false);
     stroll_on(15.0);
-    stroll.mounting = mounting(ASIDE_RAD - 2.6, 0.3);
+    stroll.mounting = stroll_held(ASIDE_RAD - 2.6, 0.3);
     stroll_on(8.0);
     uint32_t first = step_count;
     stroll_on(6.0);
@@ -339,7 +326,7 @@ static void stroll_in_hand(double aside_rad, int32_t aside_steps)
     gait_config.aside_rad = INSOLE_R(0.8);
     gait_config.aside_steps = aside_steps;
     begin_stroll(true);
-    stroll.mounting = mounting(aside_rad, 0.3);
+    stroll.mounting = stroll_held(aside_rad, 0.3);
     stroll.bounce_m = GENTLE_BOUNCE_M;
     stroll_until(GENTLE);
 }
@@ -380,7 +367,7 @@ START_TEST(held_across_in_another_way_it_points_ahead_again)
     stroll_in_hand(ASIDE_RAD, 5);
     stroll_on(8.0);
     ck_assert(walk.lie.is_aside);
-    stroll.mounting = mounting(0.0, 1.7);
+    stroll.mounting = stroll_held(0.0, 1.7);
     bool forgot = false;
     for (int i = 0; i < 3 * STROLL_RATE_HZ; i++) {
         (void)stroll_once();
@@ -484,7 +471,8 @@ START_TEST(without_a_gait_the_position_changes_nothing)
 {
     set_up_stroll(1);
     begin_stroll(true);
-    ck_assert_int_eq(insole_phone_gait_init(&gait, &gait_config, NULL, &carry, &FOREST), INSOLE_OK);
+    ck_assert_int_eq(insole_phone_gait_init(&gait, &gait_config, NULL, &carry, &HAND_FOREST),
+                     INSOLE_OK);
     ck_assert_int_eq(insole_phone_walk_init(&walk, &config, &guide), INSOLE_OK);
     stroll.bounce_m = HARD_BOUNCE_M;
     stroll_until(HARD);
@@ -497,20 +485,20 @@ END_TEST
 START_TEST(a_damaged_forest_is_refused)
 {
     static const insole_carry_node_t LOOP[] = {{0, 0, 0, 0}};
-    static const insole_carry_forest_t DAMAGED = {LOOP, ROOTS, NAMES, 1, 2};
+    static const insole_carry_forest_t DAMAGED = {LOOP, HAND_ROOTS, HAND_NAMES, 1, 2};
     set_up_stroll(2);
     begin_stroll(true);
     stroll_on(3.0);
     ASSERT_UNCHANGED(gait, insole_phone_gait_init(&gait, &gait_config, &heading, &carry, &DAMAGED),
                      INSOLE_ERR_DATA);
-    ck_assert_int_eq(insole_phone_gait_init(NULL, &gait_config, &heading, &carry, &FOREST),
+    ck_assert_int_eq(insole_phone_gait_init(NULL, &gait_config, &heading, &carry, &HAND_FOREST),
                      INSOLE_ERR_NULL);
     /* one that is damaged later tells nothing, and the window waits */
     gait.forest = &DAMAGED;
     carry.window.is_new = true;
     ck_assert(!insole_phone_walk_work(&walk));
     ck_assert(carry.window.is_new);
-    gait.forest = &FOREST;
+    gait.forest = &HAND_FOREST;
     ck_assert(insole_phone_walk_work(&walk));
 }
 END_TEST

@@ -29,15 +29,6 @@ static uint32_t run_reference(const rig_case_t *c)
     return fix_count;
 }
 
-static void check_same(uint32_t from, uint32_t to)
-{
-    for (uint32_t i = from; i < to; i++) {
-        if (!is_same_fix(&fixes[i], &reference[i])) {
-            ck_abort_msg("fix %u differs", i);
-        }
-    }
-}
-
 /* ---- in and out ---------------------------------------------------------------------------- */
 
 START_TEST(finish_gives_one_fix_per_sample_and_only_once)
@@ -77,7 +68,7 @@ START_TEST(a_fix_that_waits_at_the_finish_is_not_lost)
     ck_assert_int_eq(insole_phone_tracker_imu(&rig.phone, &samples[sample_count - 1u]), INSOLE_OK);
     finish(&rig);
     ck_assert_uint_eq(fix_count, expected);
-    check_same(0u, expected);
+    expect_same_fixes(fixes, reference, 0u, expected);
 }
 END_TEST
 
@@ -149,7 +140,7 @@ START_TEST(fixes_of_a_prefix_are_a_prefix_of_the_fixes)
     set_up(&rig, &c);
     run(&rig, &c, 0u, cut);
     ck_assert_uint_ge(fix_count + 1u, cut);
-    check_same(0u, fix_count);
+    expect_same_fixes(fixes, reference, 0u, fix_count);
     finish(&rig);
     ck_assert_uint_eq(fix_count, cut);
 }
@@ -167,7 +158,7 @@ START_TEST(a_copy_goes_on_bit_for_bit)
     run(&other, &c, cut, sample_count);
     finish(&other);
     ck_assert_uint_eq(fix_count, expected);
-    check_same(0u, expected);
+    expect_same_fixes(fixes, reference, 0u, expected);
 }
 END_TEST
 
@@ -187,7 +178,7 @@ START_TEST(saved_and_restored_it_goes_on_bit_for_bit)
     run(&rig, &c, 1205u, sample_count);
     finish(&rig);
     ck_assert_uint_eq(fix_count, expected);
-    check_same(0u, expected);
+    expect_same_fixes(fixes, reference, 0u, expected);
 }
 END_TEST
 
@@ -199,7 +190,7 @@ START_TEST(slices_of_work_give_the_same_bits)
     c.slice = slices[_i];
     run_case(&rig, &c);
     ck_assert_uint_eq(fix_count, expected);
-    check_same(0u, expected);
+    expect_same_fixes(fixes, reference, 0u, expected);
     ck_assert_uint_eq(rig.phone.radio.fixes, scan_count);
 }
 END_TEST
@@ -250,7 +241,7 @@ START_TEST(instances_are_independent)
     }
     finish(&rig);
     ck_assert_uint_eq(fix_count, expected);
-    check_same(0u, expected);
+    expect_same_fixes(fixes, reference, 0u, expected);
 }
 END_TEST
 

@@ -353,11 +353,8 @@ START_TEST(whatever_comes_in)
     for (int i = 0; i < 20000; i++) {
         insole_anchor_fix_t fix;
         set_defaults();
-        count = 1u + insole_rng_bits(&rng) % APS_MAX;
-        double wide = pow(10.0, uniform(-3.0, 4.0));
+        double wide = place_wildly();
         for (uint32_t k = 0; k < count; k++) {
-            place_ap(k, uniform(-wide, wide),
-                     insole_rng_bits(&rng) & 3u ? uniform(-wide, wide) : 0.0);
             insole_range_t range = {0, k, (insole_real_t)(wide * uniform(0.0, 2.0)),
                                     (insole_real_t)uniform(-1.0, 5.0)};
             ranges[k] = range;

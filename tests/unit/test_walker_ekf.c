@@ -28,20 +28,10 @@ static insole_walker_start_t start_with(insole_real_t offset_rad, double var_rad
     return start;
 }
 
-static insole_walker_ekf_t begin(const insole_walker_ekf_config_t *config,
-                                 const insole_walker_start_t *start)
-{
-    insole_walker_ekf_t walker;
-    memset(&walker, 0, sizeof walker);
-    ck_assert_int_eq(insole_walker_ekf_init(&walker, config), INSOLE_OK);
-    ck_assert_int_eq(insole_walker_ekf_start(&walker, start), INSOLE_OK);
-    return walker;
-}
-
 static insole_walker_ekf_t begin_known(const insole_walker_ekf_config_t *config)
 {
     insole_walker_start_t start = start_with(0, 0.0025, false);
-    return begin(config, &start);
+    return walker_begun(config, &start);
 }
 
 static insole_spot_fix_t fix_at(uint64_t t_us, insole_spot_t spot, insole_real_t variance)
@@ -227,7 +217,7 @@ START_TEST(it_is_the_filter_of_the_book)
                                    3,        INSOLE_R(0.05), _i % 2 == 1};
     insole_walker_ekf_config_t config = insole_walker_ekf_defaults;
     config.patience = 1000000; /* no book widens */
-    insole_walker_ekf_t walker = begin(&config, &start);
+    insole_walker_ekf_t walker = walker_begun(&config, &start);
     book_t book = book_of(&start);
     worst_t state = {0.0, 0.0}, cov = {0.0, 0.0}, nis = {0.0, 0.0}, held = {0.0, 0.0};
     for (uint64_t k = 1u; k <= 400u; k++) {
@@ -324,7 +314,7 @@ static insole_walker_ekf_t begin_walk(const plot_t *plot, truth_t *truth)
     *truth = t;
     insole_walker_start_t start =
         start_with((insole_real_t)told, plot->sigma_offset * plot->sigma_offset, plot->by_radio);
-    return begin(&insole_walker_ekf_defaults, &start);
+    return walker_begun(&insole_walker_ekf_defaults, &start);
 }
 
 static void walker_go(insole_walker_ekf_t *walker, const plot_t *plot, truth_t *truth)
@@ -412,12 +402,12 @@ START_TEST(what_fixes_share_can_be_told)
     insole_walker_ekf_config_t less = insole_walker_ekf_defaults;
     less.bias_m = INSOLE_R(1.5);
     insole_walker_start_t start = start_with(0, 0.0025, _i == 1);
-    insole_walker_ekf_t told, set = begin(&less, &start);
+    insole_walker_ekf_t told, set = walker_begun(&less, &start);
     memset(&told, 0, sizeof told);
     ck_assert_int_eq(insole_walker_ekf_init(&told, &insole_walker_ekf_defaults), INSOLE_OK);
     ck_assert_int_eq(insole_walker_ekf_bias(&told, INSOLE_R(1.5)), INSOLE_OK);
     ck_assert_int_eq(insole_walker_ekf_start(&told, &start), INSOLE_OK);
-    insole_walker_ekf_t late = begin(&insole_walker_ekf_defaults, &start);
+    insole_walker_ekf_t late = walker_begun(&insole_walker_ekf_defaults, &start);
     ck_assert_int_eq(insole_walker_ekf_bias(&late, INSOLE_R(1.5)), INSOLE_OK);
     insole_rng_seed(&rng, 14u);
     for (uint32_t k = 1u; k <= 20u; k++) {
@@ -475,7 +465,7 @@ START_TEST(what_is_linear_is_the_plain_filter)
     insole_step_fusion_config_t plainly = insole_step_fusion_defaults;
     config.patience = plainly.patience = 1000000; /* one widens the offset, too */
     insole_walker_start_t start = start_with(INSOLE_R(0.7), 0.0, _i == 1);
-    insole_walker_ekf_t walker = begin(&config, &start);
+    insole_walker_ekf_t walker = walker_begun(&config, &start);
     insole_step_fusion_t plain;
     ck_assert_int_eq(insole_step_fusion_init(&plain, &plainly), INSOLE_OK);
     ck_assert_int_eq(insole_step_fusion_start(&plain, start.spot, start.cov_m2, start.offset_rad),
@@ -705,7 +695,7 @@ START_TEST(a_compass_tells_an_unknown_direction)
     static const double SIGMA[] = {0.05, 0.26, 0.5, 0.79, 1.2};
     double sigma = SIGMA[_i];
     insole_walker_start_t start = start_with(1, UNKNOWN, false);
-    insole_walker_ekf_t walker = begin(&insole_walker_ekf_defaults, &start);
+    insole_walker_ekf_t walker = walker_begun(&insole_walker_ekf_defaults, &start);
     ck_assert_int_eq(insole_walker_ekf_compass(&walker, -3, (insole_real_t)sigma), INSOLE_OK);
     insole_walker_answer_t a = answer_of(&walker);
     ASSERT_NEAR(a.offset_rad, -3.0, 3e-3, "rad"); /* a thousandth is left of the start */
@@ -718,7 +708,7 @@ END_TEST
 START_TEST(a_compass_goes_round)
 {
     insole_walker_start_t start = start_with(INSOLE_R(3.1), 0.04, false);
-    insole_walker_ekf_t walker = begin(&insole_walker_ekf_defaults, &start);
+    insole_walker_ekf_t walker = walker_begun(&insole_walker_ekf_defaults, &start);
     ck_assert_int_eq(insole_walker_ekf_compass(&walker, INSOLE_R(-3.1), INSOLE_R(0.2)), INSOLE_OK);
     ASSERT_NEAR(fabs((double)walker.state.offset_rad), PI, 1e-4, "rad"); /* the middle */
     ASSERT_NEAR(answer_of(&walker).var_offset_rad2, 0.02, 1e-5, "rad^2");
@@ -728,7 +718,7 @@ END_TEST
 START_TEST(a_compass_that_knows_nothing_tells_nothing)
 {
     insole_walker_start_t start = start_with(1, _i ? UNKNOWN : 0.04, false);
-    insole_walker_ekf_t walker = begin(&insole_walker_ekf_defaults, &start);
+    insole_walker_ekf_t walker = walker_begun(&insole_walker_ekf_defaults, &start);
     ASSERT_UNCHANGED(walker, insole_walker_ekf_compass(&walker, 2, INSOLE_R(1.82)), INSOLE_OK);
 }
 END_TEST
@@ -746,7 +736,7 @@ static insole_pace_t any_pace(void)
 START_TEST(a_day_leaves_a_covariance)
 {
     insole_walker_start_t start = start_with(0, _i ? UNKNOWN : 0.01, _i == 1);
-    insole_walker_ekf_t walker = begin(&insole_walker_ekf_defaults, &start);
+    insole_walker_ekf_t walker = walker_begun(&insole_walker_ekf_defaults, &start);
     insole_rng_seed(&rng, 10u);
     worst_t held = {0.0, 0.0};
     for (uint32_t i = 0u; i < 170000u; i++) {

@@ -5,18 +5,9 @@
 #include "near.h"
 #include "plane.h"
 #include "suite.h"
+#include "walker.h"
 
 static insole_rng_t rng;
-
-static insole_walker_ekf_t begin(const insole_walker_ekf_config_t *config,
-                                 const insole_walker_start_t *start)
-{
-    insole_walker_ekf_t walker;
-    memset(&walker, 0, sizeof walker);
-    ck_assert_int_eq(insole_walker_ekf_init(&walker, config), INSOLE_OK);
-    ck_assert_int_eq(insole_walker_ekf_start(&walker, start), INSOLE_OK);
-    return walker;
-}
 
 /* Bit for bit what the calls themselves do with the same news. */
 START_TEST(the_table_is_the_calls_it_names)
@@ -27,7 +18,7 @@ START_TEST(the_table_is_the_calls_it_names)
     insole_walker_start_t start = {
         at.t_us, at.spot, at.cov_m2, at.offset_rad, at.var_offset_rad2, at.from_radio};
     insole_step_filter_answer_t named_answer;
-    insole_walker_ekf_t direct = begin(&insole_walker_ekf_defaults, &start), named = direct;
+    insole_walker_ekf_t direct = walker_begun(&insole_walker_ekf_defaults, &start), named = direct;
     ck_assert_int_eq(calls->start(&named, &at), INSOLE_OK);
     insole_rng_seed(&rng, 60u);
     for (uint32_t i = 1u; i < 100u; i++) {

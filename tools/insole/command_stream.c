@@ -142,22 +142,28 @@ static void print_summary(const stream_counts_t *counts)
     }
 }
 
+static bool write_file(const stream_writer_t *writer, const char *path, failure_t *failure)
+{
+    FILE *file;
+    if (!output_open(&file, path, failure)) {
+        return false;
+    }
+    (void)fwrite(writer->bytes, 1u, writer->counts.bytes, file);
+    return output_close(file, path, failure);
+}
+
+/* A log that is none has not cost an older stream. */
 static bool write_stream(const arguments_t *arguments, const stream_settings_t *settings,
                          sensor_stream_t *stream, const site_t *site, failure_t *failure)
 {
     const char *path = options_value(arguments, "out");
     stream_writer_t writer;
-    FILE *file;
-    failure_t ignored;
     if (session_reads(&stream->session, path) || site_is_file(site, path)) {
         return failure_usage(failure, "insole stream: --out %s would overwrite what is read", path);
     }
-    if (!output_open(&file, path, failure)) {
-        return false;
-    }
-    stream_writer_init(&writer, settings, file);
-    bool is_good = write_records(stream, site, &writer, failure);
-    is_good = output_close(file, path, is_good ? failure : &ignored) && is_good;
+    stream_writer_init(&writer, settings);
+    bool is_good =
+        write_records(stream, site, &writer, failure) && write_file(&writer, path, failure);
     if (is_good) {
         print_summary(&writer.counts);
     }

@@ -2,24 +2,27 @@
 #include "stream_writer.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "convert.h"
 #include "estimator_setup.h"
+#include "memory.h"
 
 static const double COUNTS = 32768.0;
 
-void stream_writer_init(stream_writer_t *writer, const stream_settings_t *settings, FILE *file)
+void stream_writer_init(stream_writer_t *writer, const stream_settings_t *settings)
 {
     memset(writer, 0, sizeof *writer);
     writer->settings = *settings;
-    writer->file = file;
     writer->batch.kind = WIRE_IMU;
 }
 
 void stream_writer_free(stream_writer_t *writer)
 {
     radio_group_free(&writer->radio);
+    free(writer->bytes);
+    writer->bytes = NULL;
 }
 
 /* ---- frames ----------------------------------------------------------------------------- */
@@ -63,13 +66,14 @@ static void put_counts(stream_writer_t *writer, wire_frame_t *frame, const doubl
 
 static void write_frame(stream_writer_t *writer, const wire_frame_t *frame)
 {
-    putc((int)WIRE_MARK, writer->file);
-    putc(frame->kind, writer->file);
-    putc(frame->count, writer->file);
-    (void)fwrite(frame->payload, 1u, frame->count, writer->file);
-    putc(wire_check(frame), writer->file);
+    const uint8_t head[] = {(uint8_t)WIRE_MARK, frame->kind, frame->count};
+    size_t before = writer->counts.bytes, after = before + frame->count + WIRE_FRAMING;
+    writer->bytes = memory_room(writer->bytes, &writer->room, after, 1u);
+    memcpy(writer->bytes + before, head, sizeof head);
+    memcpy(writer->bytes + before + sizeof head, frame->payload, frame->count);
+    writer->bytes[after - 1u] = wire_check(frame);
     writer->counts.frames++;
-    writer->counts.bytes += (unsigned long)frame->count + WIRE_FRAMING;
+    writer->counts.bytes = (unsigned long)after;
 }
 
 static wire_frame_t frame_of(uint8_t kind)

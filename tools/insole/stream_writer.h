@@ -4,17 +4,16 @@
  *  which begins ten seconds before it wraps. The frames are those of ../firmware/wire.h.
  *
  *      stream_writer_t writer;
- *      stream_writer_init(&writer, &settings, file);
+ *      stream_writer_init(&writer, &settings);
  *      stream_writer_record(&writer, &record, &failure);      ids of radio: index in the tables
  *      stream_writer_finish(&writer);
+ *      fwrite(writer.bytes, 1, writer.counts.bytes, file);
  *      stream_writer_free(&writer);
  *
  *  SPDX-License-Identifier: MIT
  */
 #ifndef INSOLE_HOST_STREAM_WRITER_H
 #define INSOLE_HOST_STREAM_WRITER_H
-
-#include <stdio.h>
 
 #include "../firmware/wire.h"
 #include "failure.h"
@@ -46,14 +45,15 @@ typedef struct {
 typedef struct {
     stream_settings_t settings;
     stream_counts_t counts;
-    FILE *file;
+    uint8_t *bytes; /**< `counts.bytes` of them */
+    size_t room;
     wire_frame_t batch; /**< readings that wait */
     radio_group_t radio;
     bool has_begun, was_reset;
     int64_t begin_us, newest_us;
 } stream_writer_t;
 
-void stream_writer_init(stream_writer_t *writer, const stream_settings_t *settings, FILE *file);
+void stream_writer_init(stream_writer_t *writer, const stream_settings_t *settings);
 
 /** Takes START, IMU, MAG, RSS and RANGE records; others mean nothing to a device.
  *  Fails for a gap in which the counter would wrap unseen. */
