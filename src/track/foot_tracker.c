@@ -60,7 +60,7 @@ insole_status_t insole_foot_tracker_imu(insole_foot_tracker_t *tracker, const in
     insole_clean_t room;
     const insole_clean_t *clean = insole_screen_take(&tracker->screen, imu, &room);
     if (clean) {
-        (void)insole_still_bias_push(&tracker->still_bias, &clean->imu);
+        insole_still_bias_take(&tracker->still_bias, &clean->imu);
         insole_zero_velocity_take(&tracker->zero_velocity, &clean->imu, clean->marks);
     }
     return INSOLE_OK;
