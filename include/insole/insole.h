@@ -87,6 +87,7 @@
 #include "insole/sense/carry_window.h"
 #include "insole/sense/even_clock.h"
 #include "insole/sense/gyro_clip.h"
+#include "insole/sense/hold.h"
 #include "insole/sense/past_min.h"
 #include "insole/sense/rhythm.h"
 #include "insole/sense/screen.h"

@@ -116,13 +116,6 @@ static bool is_clipped(insole_gyro_clip_t *clip, uint32_t axis, insole_real_t ra
     return clip->range_radps > ZERO && size >= clip->share * clip->range_radps;
 }
 
-static void remember(insole_gyro_clip_t *clip, insole_vec3_t gyro)
-{
-    clip->peak[0].last_radps = insole_abs(gyro.x);
-    clip->peak[1].last_radps = insole_abs(gyro.y);
-    clip->peak[2].last_radps = insole_abs(gyro.z);
-}
-
 static uint8_t follow(insole_gyro_clip_t *clip, insole_vec3_t gyro, insole_real_t dt_us)
 {
     bool x = is_clipped(clip, 0u, gyro.x, dt_us);
@@ -149,8 +142,8 @@ insole_status_t insole_gyro_clip_push(insole_gyro_clip_t *clip, insole_vec3_t gy
         clip->quiet_radps2 = quiet_square(clip);
     }
     *axes = 0u;
-    if (insole_vec3_norm2(gyro_radps) < clip->quiet_radps2) {
-        remember(clip, gyro_radps);
+    if (insole_gyro_clip_is_quiet(clip, &gyro_radps)) {
+        insole_gyro_clip_remember(clip, &gyro_radps);
     } else {
         *axes = follow(clip, gyro_radps, dt_us);
     }

@@ -3,10 +3,10 @@
 
 #include <string.h>
 
+#include "insole/sense/hold.h"
 #include "insole/sense/spike.h"
 
 #define ZERO INSOLE_R(0.0)
-#define ONE  INSOLE_R(1.0)
 
 /* Beyond all reason: 200 g, 5,700 deg/s. */
 static const insole_real_t ACCEL_LIMIT_MPS2 = INSOLE_R(2000.0);
@@ -48,6 +48,8 @@ insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_
     screen->least_us = insole_microseconds(INTERVAL_SHARE / config->max_rate_hz);
     screen->calm_accel2 =
         insole_square(insole_min(CALM_SHARE * config->spike_accel_mps2, ACCEL_LIMIT_MPS2));
+    screen->spike_accel2 = insole_square(config->spike_accel_mps2);
+    screen->spike_gyro2 = insole_square(config->spike_gyro_radps);
     return insole_gyro_clip_init(&screen->clip, config->gyro_range_radps, config->clip_share);
 }
 
@@ -64,27 +66,6 @@ static insole_screen_slot_t *before(insole_screen_t *s)
 
 /* ---- fields ----------------------------------------------------------------------------- */
 
-/* @return how many fields were held: 0 or 1 */
-static uint32_t hold_field(insole_real_t *value, insole_real_t last, insole_real_t limit)
-{
-    if (insole_abs(*value) <= limit) {
-        return 0u;
-    }
-    *value = last;
-    return 1u;
-}
-
-static bool hold_fields(insole_imu_t *imu, const insole_imu_t *last)
-{
-    insole_vec3_t *a = &imu->accel_mps2, *w = &imu->gyro_radps;
-    const insole_vec3_t *la = &last->accel_mps2, *lw = &last->gyro_radps;
-    uint32_t held = 0u;
-    held += hold_field(&a->x, la->x, ACCEL_LIMIT_MPS2) + hold_field(&w->x, lw->x, GYRO_LIMIT_RADPS);
-    held += hold_field(&a->y, la->y, ACCEL_LIMIT_MPS2) + hold_field(&w->y, lw->y, GYRO_LIMIT_RADPS);
-    held += hold_field(&a->z, la->z, ACCEL_LIMIT_MPS2) + hold_field(&w->z, lw->z, GYRO_LIMIT_RADPS);
-    return held > 0u;
-}
-
 /* What is no number is neither calm nor lively: fields of the rest may have to be held. */
 static insole_screen_look_t look_at(const insole_screen_t *s, const insole_imu_t *imu)
 {
@@ -98,20 +79,21 @@ static insole_screen_look_t look_at(const insole_screen_t *s, const insole_imu_t
     return fine ? INSOLE_SCREEN_LIVELY : INSOLE_SCREEN_HELD;
 }
 
-/* Bad fields are held for a while; false: the sample is of no use. */
-INSOLE_APART static bool repair_fields(insole_screen_t *s, insole_imu_t *imu,
-                                       insole_screen_look_t *look)
+/* Bad fields are held for a while. @return INSOLE_SCREEN_OUT: the sample is of no use */
+INSOLE_APART static insole_screen_look_t repair_fields(insole_screen_t *s, insole_imu_t *imu)
 {
     const insole_imu_t *last = &pending(s)->clean.imu;
-    if (!hold_fields(imu, last)) {
-        *look = INSOLE_SCREEN_LIVELY; /* long, but of fields that may be */
-        return true;
+    bool accel = insole_hold(&imu->accel_mps2, last->accel_mps2, ACCEL_LIMIT_MPS2);
+    bool gyro = insole_hold(&imu->gyro_radps, last->gyro_radps, GYRO_LIMIT_RADPS);
+    if (!accel && !gyro) {
+        return INSOLE_SCREEN_LIVELY; /* long, but of fields that may be */
     }
     if (s->look != INSOLE_SCREEN_HELD) {
         s->good_us = last->t_us;
     }
     s->counts.not_finite++;
-    return s->held > 0u && imu->t_us - s->good_us <= s->hold_us;
+    bool soon = s->held > 0u && imu->t_us - s->good_us <= s->hold_us;
+    return soon ? INSOLE_SCREEN_HELD : INSOLE_SCREEN_OUT;
 }
 
 /* ---- stamps ----------------------------------------------------------------------------- */
@@ -131,6 +113,7 @@ static void drop_pending(insole_screen_t *s)
 {
     s->newest ^= 1u;
     s->held--;
+    s->flowing = false;
     s->look = s->held > 0u ? INSOLE_SCREEN_OUT : INSOLE_SCREEN_LIVELY;
 }
 
@@ -147,6 +130,7 @@ INSOLE_APART static bool is_believed(insole_screen_t *s, uint64_t t_us)
     } else {
         s->counts.backward++;
         s->back_run++;
+        s->flowing = false;
     }
     return false;
 }
@@ -164,27 +148,38 @@ static bool is_in_time(insole_screen_t *s, uint64_t t_us)
  * dropped because the clock had been put back. */
 static bool is_after_gap(insole_screen_t *s, uint32_t dt_us)
 {
-    insole_real_t dropped_us = ZERO;
-    if (s->back_run > 0u) {
-        dropped_us = (insole_real_t)s->back_run * s->clock.period_us;
-        s->back_run = 0u;
-    }
+    insole_real_t dropped_us = (insole_real_t)s->back_run * s->clock.period_us;
+    s->back_run = 0u;
     return dt_us > s->gap_us || dropped_us > (insole_real_t)s->gap_us;
 }
 
 /* What the even stamp adds to the raw one: nothing unless stamps come in bursts. */
 static int32_t even_lead_us(insole_screen_t *s, uint32_t dt_us, bool known)
 {
-    if (!known) {
-        insole_even_clock_restart(&s->clock);
-        return 0;
+    if (known && s->clock.period_us > ZERO) {
+        insole_even_clock_go_on(&s->clock, dt_us);
+        if (s->clock.burst_share < s->config.burst_share) {
+            return 0;
+        }
+        s->counts.evened++;
+        return (int32_t)s->clock.lead_us; /* at most INSOLE_EVEN_CLOCK_REACH_US */
     }
-    if (insole_even_clock_tick(&s->clock, dt_us) != INSOLE_OK ||
-        s->clock.burst_share < s->config.burst_share) {
-        return 0;
+    known ? (void)insole_even_clock_tick(&s->clock, dt_us) : insole_even_clock_restart(&s->clock);
+    return 0;
+}
+
+/* Of a slot whose raw stamp comes so long after that of the last. */
+static void set_times(insole_screen_t *s, const insole_screen_slot_t *last,
+                      insole_screen_slot_t *slot, uint32_t dt_us, bool known)
+{
+    int32_t lead_us = even_lead_us(s, dt_us, known);
+    int32_t since_us = (int32_t)dt_us + lead_us - last->lead_us;
+    if (since_us < 1) { /* stamps advance */
+        lead_us += 1 - since_us;
+        since_us = 1;
     }
-    s->counts.evened++;
-    return (int32_t)s->clock.lead_us; /* at most INSOLE_EVEN_CLOCK_REACH_US */
+    slot->lead_us = lead_us;
+    slot->since_us = (uint32_t)since_us;
 }
 
 /* ---- spikes and clipping ---------------------------------------------------------------- */
@@ -198,41 +193,33 @@ static void mend(insole_screen_t *s, const insole_imu_t *after, uint32_t since_u
     }
     const insole_imu_t *first = &before(s)->clean.imu;
     insole_imu_t *middle = &slot->clean.imu;
-    bool accel = insole_spike_mend(first->accel_mps2, &middle->accel_mps2, after->accel_mps2,
+    bool accel = insole_spike_may_be(&first->accel_mps2, &middle->accel_mps2, s->spike_accel2) &&
+                 insole_spike_mend(first->accel_mps2, &middle->accel_mps2, after->accel_mps2,
                                    s->config.spike_accel_mps2);
-    bool gyro = insole_spike_mend(first->gyro_radps, &middle->gyro_radps, after->gyro_radps,
+    bool gyro = insole_spike_may_be(&first->gyro_radps, &middle->gyro_radps, s->spike_gyro2) &&
+                insole_spike_mend(first->gyro_radps, &middle->gyro_radps, after->gyro_radps,
                                   s->config.spike_gyro_radps);
     s->counts.spikes += accel || gyro ? 1u : 0u;
 }
 
-static uint8_t clip_marks(insole_screen_t *s, insole_vec3_t gyro, insole_real_t dt_us)
+/* Of a rate that is fast or follows none. */
+INSOLE_APART static uint8_t watch_clipping(insole_screen_t *s, insole_vec3_t gyro,
+                                           insole_real_t dt_us)
 {
     uint8_t axes = 0u;
     (void)insole_gyro_clip_push(&s->clip, gyro, dt_us, &axes);
     s->counts.clipped += axes != 0u ? 1u : 0u;
+    insole_real_t calm_gyro =
+        insole_square(insole_min(CALM_SHARE * s->config.spike_gyro_radps, GYRO_LIMIT_RADPS));
+    s->calm_gyro2 = insole_min(calm_gyro, s->clip.quiet_radps2);
     return axes;
 }
 
 /* ---- averaging -------------------------------------------------------------------------- */
 
-static void sum_add(insole_screen_t *s, const insole_clean_t *c, insole_real_t weight_s)
-{
-    s->sum_accel = insole_vec3_add_scaled(s->sum_accel, weight_s, c->imu.accel_mps2);
-    s->sum_gyro = insole_vec3_add_scaled(s->sum_gyro, weight_s, c->imu.gyro_radps);
-    s->sum_s += weight_s;
-    s->sum_marks |= c->marks;
-    s->sum_count++;
-}
-
-/* The stamp that a sample goes out with. */
-static uint64_t even_stamp(const insole_screen_slot_t *slot)
-{
-    return slot->clean.imu.t_us + (uint64_t)(int64_t)slot->lead_us;
-}
-
 static void write_mean(insole_screen_t *s, uint64_t t_us, insole_clean_t *clean)
 {
-    insole_real_t per_s = ONE / s->sum_s;
+    insole_real_t per_s = INSOLE_R(1.0) / s->sum_s;
     clean->imu.t_us = t_us;
     clean->imu.accel_mps2 = insole_vec3_scale(s->sum_accel, per_s);
     clean->imu.gyro_radps = insole_vec3_scale(s->sum_gyro, per_s);
@@ -251,8 +238,12 @@ static const insole_clean_t *average(insole_screen_t *s, const insole_clean_t *c
         s->sum_marks = 0u;
     }
     uint64_t all_us = c->imu.t_us - s->out_us;
-    insole_real_t weight_s = insole_seconds(0u, all_us) - s->sum_s;
-    sum_add(s, c, insole_max(weight_s, INSOLE_R(1.0e-6)));
+    insole_real_t weight_s = insole_max(insole_seconds(0u, all_us) - s->sum_s, INSOLE_R(1.0e-6));
+    s->sum_accel = insole_vec3_add_scaled(s->sum_accel, weight_s, c->imu.accel_mps2);
+    s->sum_gyro = insole_vec3_add_scaled(s->sum_gyro, weight_s, c->imu.gyro_radps);
+    s->sum_s += weight_s;
+    s->sum_marks |= c->marks;
+    s->sum_count++;
     if (all_us < s->least_us) {
         s->counts.averaged++;
         return NULL;
@@ -268,7 +259,7 @@ INSOLE_APART static const insole_clean_t *
 release_changed(insole_screen_t *s, const insole_screen_slot_t *slot, insole_clean_t *room)
 {
     insole_clean_t c = slot->clean;
-    c.imu.t_us = even_stamp(slot);
+    c.imu.t_us += (uint64_t)(int64_t)slot->lead_us;
     if (s->sum_count > 0u || slot->since_us < s->least_us) {
         return average(s, &c, slot->since_us, room);
     }
@@ -297,74 +288,81 @@ INSOLE_APART static const insole_clean_t *release_any(insole_screen_t *s, insole
 
 /* What is calm, and follows the like, is neither clipped nor next to a spike. The watch for
  * clipping has seen no calm sample: of several it wants to know the last. */
-INSOLE_APART static uint8_t look_closely(insole_screen_t *s, const insole_imu_t *imu,
-                                         uint32_t since_us, bool known)
+static uint8_t look_closely(insole_screen_t *s, const insole_imu_t *imu, uint32_t since_us,
+                            bool known)
 {
-    uint8_t gap = s->held > 0u && !known ? INSOLE_MARK_GAP : 0u;
+    uint8_t marks = s->held > 0u && !known ? INSOLE_MARK_GAP : 0u;
     if (s->look == INSOLE_SCREEN_CALM) {
-        (void)clip_marks(s, pending(s)->clean.imu.gyro_radps, ONE);
+        insole_gyro_clip_remember(&s->clip, &pending(s)->clean.imu.gyro_radps);
     }
-    uint8_t axes = clip_marks(s, imu->gyro_radps, known ? (insole_real_t)since_us : ZERO);
-    insole_real_t calm_gyro =
-        insole_square(insole_min(CALM_SHARE * s->config.spike_gyro_radps, GYRO_LIMIT_RADPS));
-    s->calm_gyro2 = insole_min(calm_gyro, s->clip.quiet_radps2);
+    if (known && insole_gyro_clip_is_quiet(&s->clip, &imu->gyro_radps)) {
+        insole_gyro_clip_remember(&s->clip, &imu->gyro_radps);
+    } else {
+        marks |= watch_clipping(s, imu->gyro_radps, known ? (insole_real_t)since_us : ZERO);
+    }
     mend(s, imu, since_us);
-    return axes | gap;
+    return marks;
 }
 
-/* A sample in time, its fields repaired, takes the place of the one before that which waits. */
-static const insole_clean_t *take_in(insole_screen_t *s, const insole_imu_t *imu,
-                                     insole_screen_look_t look, insole_clean_t *room)
+/* Of which anything may be the matter. */
+INSOLE_APART static const insole_clean_t *take_doubtful(insole_screen_t *s, const insole_imu_t *imu,
+                                                        insole_screen_look_t look,
+                                                        insole_clean_t *room)
 {
+    if (s->finished) {
+        return NULL;
+    }
+    s->counts.samples++;
+    if (!is_in_time(s, imu->t_us)) {
+        return NULL;
+    }
+    insole_imu_t repaired;
+    if (look == INSOLE_SCREEN_HELD) {
+        repaired = *imu;
+        imu = &repaired;
+        look = repair_fields(s, &repaired);
+    }
+    if (look == INSOLE_SCREEN_OUT) {
+        return NULL;
+    }
     insole_screen_slot_t *last = pending(s), *slot = before(s);
     uint64_t raw_us = imu->t_us - last->clean.imu.t_us;
     uint32_t dt_us = s->held > 0u && raw_us < FAR_US ? (uint32_t)raw_us : FAR_US;
     bool known = !is_after_gap(s, dt_us);
-    int32_t lead_us = even_lead_us(s, dt_us, known);
-    int32_t since_us = (int32_t)dt_us + lead_us - last->lead_us;
-    if (since_us < 1) { /* stamps advance */
-        lead_us += 1 - since_us;
-        since_us = 1;
-    }
-    const insole_clean_t *out;
-    uint8_t marks = 0u;
-    if (known && look == INSOLE_SCREEN_CALM && s->look == INSOLE_SCREEN_CALM) {
-        out = release(s, last, room);
-    } else {
-        marks = look_closely(s, imu, (uint32_t)since_us, known);
-        out = release_any(s, room);
-        s->held = s->held > 0u ? 2u : 1u;
-        look = known || look != INSOLE_SCREEN_CALM ? look : INSOLE_SCREEN_LIVELY;
-    }
+    set_times(s, last, slot, dt_us, known);
+    uint8_t marks = look_closely(s, imu, slot->since_us, known);
+    const insole_clean_t *out = release_any(s, room);
     slot->clean.imu = *imu;
     slot->clean.marks = marks;
-    slot->lead_us = lead_us;
-    slot->since_us = (uint32_t)since_us;
-    s->look = look;
     s->newest ^= 1u;
+    s->held = s->held > 0u ? 2u : 1u;
+    s->look = known || look != INSOLE_SCREEN_CALM ? look : INSOLE_SCREEN_LIVELY;
+    s->flowing = true;
     return out;
 }
 
-const insole_clean_t *insole_screen_take(insole_screen_t *screen, const insole_imu_t *raw,
-                                         insole_clean_t *room)
+INSOLE_FLAT const insole_clean_t *insole_screen_take(insole_screen_t *screen,
+                                                     const insole_imu_t *raw, insole_clean_t *room)
 {
-    if (!screen || !raw || !room || screen->finished) {
+    if (!screen || !raw || !room) {
         return NULL;
     }
-    screen->counts.samples++;
-    if (!is_in_time(screen, raw->t_us)) {
-        return NULL;
+    insole_screen_t *s = screen;
+    insole_screen_look_t look = look_at(s, raw);
+    insole_screen_slot_t *last = pending(s), *slot = before(s);
+    uint64_t dt_us = raw->t_us - last->clean.imu.t_us;
+    bool calm = look == INSOLE_SCREEN_CALM && s->look == INSOLE_SCREEN_CALM && s->flowing &&
+                dt_us - 1u < s->gap_us && raw->t_us <= LATEST_US;
+    if (!calm) {
+        return take_doubtful(s, raw, look, room);
     }
-    insole_screen_look_t look = look_at(screen, raw);
-    insole_imu_t repaired;
-    if (look == INSOLE_SCREEN_HELD) {
-        repaired = *raw;
-        raw = &repaired;
-        if (!repair_fields(screen, &repaired, &look)) {
-            return NULL;
-        }
-    }
-    return take_in(screen, raw, look, room);
+    s->counts.samples++;
+    set_times(s, last, slot, (uint32_t)dt_us, true);
+    const insole_clean_t *out = release(s, last, room);
+    slot->clean.imu = *raw;
+    slot->clean.marks = 0u;
+    s->newest ^= 1u;
+    return out;
 }
 
 static insole_status_t hand_over(const insole_clean_t *out, insole_clean_t *clean)
@@ -392,8 +390,10 @@ insole_status_t insole_screen_finish(insole_screen_t *screen, insole_clean_t *cl
     insole_screen_t *s = screen;
     const insole_clean_t *out = s->finished ? NULL : release_any(s, clean);
     s->finished = true;
+    s->flowing = false;
     if (!out && s->sum_count > 0u) {
-        write_mean(s, even_stamp(pending(s)), clean);
+        const insole_screen_slot_t *last = pending(s);
+        write_mean(s, last->clean.imu.t_us + (uint64_t)(int64_t)last->lead_us, clean);
         out = clean;
     }
     return hand_over(out, clean);

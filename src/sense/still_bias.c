@@ -11,6 +11,9 @@ static const uint32_t GAP_US = 100000u;
 /* A gravity that a rest may tell; farther off, the sensor's scale or unit is wrong. */
 static const insole_real_t GRAVITY_SPREAD_MPS2 = INSOLE_R(0.5);
 
+/* A little more than screen.h lets through. */
+static const insole_real_t HIGHEST_RATE_HZ = INSOLE_R(300.0);
+
 const insole_still_bias_config_t insole_still_bias_defaults = {
     INSOLE_STILL_BIAS_KEYS(INSOLE_CONFIG_DEFAULT)};
 
@@ -47,29 +50,15 @@ static void block_begin(insole_still_block_t *block, const insole_imu_t *imu)
     block->gyro0_radps = imu->gyro_radps;
 }
 
-/* A sample relative to the first of its block. */
-typedef struct {
-    insole_vec3_t accel, gyro;
-    insole_real_t accel2, gyro2; /* squares */
-} relative_t;
-
-static relative_t relative(const insole_still_block_t *block, const insole_imu_t *imu)
+/* Values relative to the first sample of the block. */
+static void block_add(insole_still_block_t *block, const insole_imu_t *imu)
 {
-    relative_t r;
-    r.accel = insole_vec3_sub(imu->accel_mps2, block->accel0_mps2);
-    r.gyro = insole_vec3_sub(imu->gyro_radps, block->gyro0_radps);
-    r.accel2 = insole_vec3_norm2(r.accel);
-    r.gyro2 = insole_vec3_norm2(r.gyro);
-    return r;
-}
-
-static void block_add(insole_still_block_t *block, const relative_t *r)
-{
-    block->accel = insole_vec3_add(block->accel, r->accel);
-    block->gyro = insole_vec3_add(block->gyro, r->gyro);
-    block->accel2 += r->accel2;
-    block->gyro2 += r->gyro2;
-    block->count++;
+    insole_vec3_t accel = insole_vec3_sub(imu->accel_mps2, block->accel0_mps2);
+    insole_vec3_t gyro = insole_vec3_sub(imu->gyro_radps, block->gyro0_radps);
+    block->accel = insole_vec3_add(block->accel, accel);
+    block->gyro = insole_vec3_add(block->gyro, gyro);
+    block->accel2 += insole_vec3_norm2(accel);
+    block->gyro2 += insole_vec3_norm2(gyro);
 }
 
 static insole_still_moments_t moments_of(const insole_still_block_t *b)
@@ -140,35 +129,46 @@ static void learn_gravity(insole_still_bias_t *rest, insole_vec3_t mean_accel)
     rest->gravity_mps2 += weight * (g - rest->gravity_mps2);
 }
 
-/* A full block against the one before; the next one begins. */
-INSOLE_COLD static void end_block(insole_still_bias_t *rest, const insole_imu_t *last)
+/* The squares about the mean can only grow: once they are too large for as many samples as a block
+ * may hold, neither this block nor the next is quiet with the other. */
+INSOLE_APART static bool is_lively(const insole_still_bias_t *rest)
+{
+    const insole_still_bias_config_t *c = &rest->config;
+    insole_still_moments_t now = moments_of(&rest->block);
+    insole_real_t most = HIGHEST_RATE_HZ * c->block_s;
+    insole_real_t half_share = INSOLE_R(0.5) * (insole_real_t)rest->block.count / most;
+    return half_share * now.var_gyro > insole_square(c->quiet_gyro_radps) ||
+           half_share * now.var_accel > insole_square(c->quiet_accel_mps2);
+}
+
+/* A full block against the one before. */
+static void learn(insole_still_bias_t *rest)
 {
     const insole_still_bias_config_t *c = &rest->config;
     insole_still_moments_t now = moments_of(&rest->block), *before = &rest->before;
-    insole_real_t walk = insole_square(c->bias_walk_radps_rts) * c->block_s;
-    rest->variance_radps2 = insole_vec3_add(rest->variance_radps2, insole_vec3(walk, walk, walk));
     if (rest->has_before && are_quiet(c, &now, before)) {
         insole_real_t apart = distance(now.gyro_radps, before->gyro_radps);
         learn_bias(rest, insole_vec3_middle(now.gyro_radps, before->gyro_radps), apart);
         learn_gravity(rest, insole_vec3_middle(now.accel_mps2, before->accel_mps2));
     }
     *before = now;
-    rest->has_before = true;
+}
+
+/* A block is full; the next one begins. */
+INSOLE_COLD static void end_block(insole_still_bias_t *rest, const insole_imu_t *last)
+{
+    const insole_still_bias_config_t *c = &rest->config;
+    insole_real_t walk = insole_square(c->bias_walk_radps_rts) * c->block_s;
+    rest->variance_radps2 = insole_vec3_add(rest->variance_radps2, insole_vec3(walk, walk, walk));
+    if (!rest->block.lively) {
+        learn(rest);
+    }
+    rest->has_before = !rest->block.lively;
     block_begin(&rest->block, last);
 }
 
-static void take(insole_still_bias_t *rest, const insole_imu_t *imu, const relative_t *r)
-{
-    insole_still_block_t *b = &rest->block;
-    rest->last_us = imu->t_us;
-    block_add(b, r);
-    if ((uint32_t)imu->t_us - b->begin_us >= rest->block_us && b->count > 2u) {
-        end_block(rest, imu);
-    }
-}
-
 /* The first sample of all, or the first after a gap. */
-static void begin(insole_still_bias_t *rest, const insole_imu_t *imu)
+INSOLE_APART static void begin(insole_still_bias_t *rest, const insole_imu_t *imu)
 {
     rest->first_us = rest->has_first ? rest->first_us : imu->t_us;
     rest->has_first = true;
@@ -176,18 +176,23 @@ static void begin(insole_still_bias_t *rest, const insole_imu_t *imu)
     block_begin(&rest->block, imu);
 }
 
-/* For a sample that may be too early, after a gap, or not finite. */
-INSOLE_APART static insole_status_t make_ready(insole_still_bias_t *rest, const insole_imu_t *imu)
+void insole_still_bias_take(insole_still_bias_t *rest, const insole_imu_t *imu)
 {
-    bool finite = insole_vec3_is_finite(imu->accel_mps2) && insole_vec3_is_finite(imu->gyro_radps);
-    if (!finite || (rest->has_first && imu->t_us <= rest->last_us)) {
-        rest->refused++;
-        return finite ? INSOLE_ERR_TIME : INSOLE_ERR_VALUE;
-    }
+    insole_still_block_t *b = &rest->block;
     if (!rest->has_first || imu->t_us - rest->last_us > GAP_US) {
         begin(rest, imu);
     }
-    return INSOLE_OK;
+    rest->last_us = imu->t_us;
+    b->count++;
+    if (!b->lively) {
+        block_add(b, imu);
+        if (b->count % 8u == 4u) {
+            b->lively = is_lively(rest);
+        }
+    }
+    if ((uint32_t)imu->t_us - b->begin_us >= rest->block_us && b->count > 2u) {
+        end_block(rest, imu);
+    }
 }
 
 insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_imu_t *imu)
@@ -195,15 +200,11 @@ insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_i
     if (!rest || !imu) {
         return INSOLE_ERR_NULL;
     }
-    relative_t r = relative(&rest->block, imu);
-    bool finite = insole_is_finite(r.accel2 + r.gyro2); /* a finite sum has finite parts */
-    if (!finite || !rest->has_first || imu->t_us - rest->last_us - 1u >= GAP_US) {
-        insole_status_t status = make_ready(rest, imu);
-        if (status != INSOLE_OK) {
-            return status;
-        }
-        r = relative(&rest->block, imu);
+    bool finite = insole_vec3_is_finite(imu->accel_mps2) && insole_vec3_is_finite(imu->gyro_radps);
+    if (!finite || (rest->has_first && imu->t_us <= rest->last_us)) {
+        rest->refused++;
+        return finite ? INSOLE_ERR_TIME : INSOLE_ERR_VALUE;
     }
-    take(rest, imu, &r);
+    insole_still_bias_take(rest, imu);
     return INSOLE_OK;
 }

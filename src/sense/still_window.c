@@ -11,6 +11,19 @@ static bool is_positive(insole_real_t x)
     return x > ZERO && insole_is_finite(x);
 }
 
+/* Of the length of the mean, or of its square. */
+static insole_real_t mean_weight(const insole_still_window_t *w)
+{
+    switch (w->kind) {
+    case INSOLE_STILL_SHOE:
+        return w->accel_weight * w->gravity_mps2;
+    case INSOLE_STILL_MV:
+        return -w->accel_weight * insole_square(w->per_n);
+    default:
+        return ZERO;
+    }
+}
+
 INSOLE_COLD insole_status_t insole_still_window_init(insole_still_window_t *window,
                                                      const insole_still_scale_t *scale,
                                                      uint32_t width)
@@ -27,87 +40,79 @@ INSOLE_COLD insole_status_t insole_still_window_init(insole_still_window_t *wind
     window->width = width;
     window->gravity_mps2 = scale->gravity_mps2;
     window->per_n = ONE / (insole_real_t)width;
+    window->two_per_n = INSOLE_R(2.0) * window->per_n;
     window->accel_weight = ONE / insole_square(scale->sigma_accel_mps2);
     window->gyro_weight = ONE / insole_square(scale->sigma_gyro_radps);
+    window->mean_weight = mean_weight(window);
     return INSOLE_OK;
 }
 
 /* What a sample alone adds to a statistic other than SHOE. */
-static insole_real_t other_part(const insole_still_window_t *w, insole_vec3_t accel,
-                                insole_vec3_t gyro)
+INSOLE_APART static insole_real_t other_part(const insole_still_window_t *w,
+                                             const insole_vec3_t *accel, const insole_vec3_t *gyro)
 {
     switch (w->kind) {
     case INSOLE_STILL_MV:
-        return w->accel_weight * insole_vec3_norm2(accel);
+        return w->accel_weight * insole_vec3_norm2(*accel);
     case INSOLE_STILL_MAG:
-        return w->accel_weight * insole_square(insole_vec3_norm(accel) - w->gravity_mps2);
+        return w->accel_weight * insole_square(insole_vec3_norm(*accel) - w->gravity_mps2);
     default:
-        return w->gyro_weight * insole_vec3_norm2(gyro);
+        return w->gyro_weight * insole_vec3_norm2(*gyro);
     }
 }
 
-static insole_real_t part_of(const insole_still_window_t *w, insole_vec3_t accel,
-                             insole_vec3_t gyro)
+static insole_real_t part_of(const insole_still_window_t *w, const insole_vec3_t *accel,
+                             const insole_vec3_t *gyro)
 {
     if (w->kind != INSOLE_STILL_SHOE) {
         return other_part(w, accel, gyro);
     }
-    return w->accel_weight * insole_vec3_norm2(accel) + w->gyro_weight * insole_vec3_norm2(gyro);
+    return w->accel_weight * insole_vec3_norm2(*accel) + w->gyro_weight * insole_vec3_norm2(*gyro);
 }
 
 /* What their mean specific force adds. */
 static insole_real_t part_of_mean(const insole_still_window_t *w, insole_vec3_t sum)
 {
-    insole_real_t g = w->gravity_mps2;
     if (w->kind == INSOLE_STILL_SHOE) {
-        return w->accel_weight * g * (g - INSOLE_R(2.0) * w->per_n * insole_vec3_norm(sum));
+        return w->mean_weight * (w->gravity_mps2 - w->two_per_n * insole_vec3_norm(sum));
     }
-    return w->kind == INSOLE_STILL_MV
-               ? -w->accel_weight * insole_square(w->per_n) * insole_vec3_norm2(sum)
-               : ZERO;
-}
-
-static insole_still_sums_t plus(insole_still_sums_t a, insole_still_sums_t b)
-{
-    insole_still_sums_t sums = {insole_vec3_add(a.accel, b.accel), a.part + b.part};
-    return sums;
-}
-
-static insole_still_sums_t minus(insole_still_sums_t a, insole_still_sums_t b)
-{
-    insole_still_sums_t sums = {insole_vec3_sub(a.accel, b.accel), a.part - b.part};
-    return sums;
+    return w->kind == INSOLE_STILL_MV ? w->mean_weight * insole_vec3_norm2(sum) : ZERO;
 }
 
 /* Of all slots, so that rounding cannot gather. */
-INSOLE_APART static insole_still_sums_t sum_anew(const insole_still_window_t *w)
+INSOLE_APART static void sum_anew(insole_still_window_t *w)
 {
     insole_still_sums_t sums = w->samples[0];
     for (uint32_t i = 1u; i < w->width; i++) {
-        sums = plus(sums, w->samples[i]);
+        sums.accel = insole_vec3_add(sums.accel, w->samples[i].accel);
+        sums.part += w->samples[i].part;
     }
-    return sums;
+    w->sums = sums;
 }
 
 /* The window takes a sample and lets the oldest go: nothing as long as it is not full. */
-static insole_still_sums_t move_on(insole_still_window_t *w, insole_still_sums_t arriving)
+static void move_on(insole_still_window_t *w, const insole_vec3_t *accel, insole_real_t part)
 {
-    insole_still_sums_t *slot = &w->samples[w->at], leaving = *slot;
-    *slot = arriving;
+    insole_still_sums_t *slot = &w->samples[w->at], *sums = &w->sums;
+    insole_vec3_t with_both = insole_vec3_add(sums->accel, *accel);
+    sums->accel = insole_vec3_sub(with_both, slot->accel);
+    sums->part = sums->part + part - slot->part;
+    slot->accel = *accel;
+    slot->part = part;
     if (++w->at == w->width) {
         w->at = 0u;
         w->full = true;
-        return sum_anew(w);
+        sum_anew(w);
     }
-    return minus(plus(w->sums, arriving), leaving);
 }
 
-/* A part of the statistic that is finite tells so of what it is made of; SHOE's is made of all. */
-static bool is_finite(const insole_still_window_t *w, insole_vec3_t accel, insole_vec3_t gyro,
-                      insole_real_t part)
+insole_real_t insole_still_window_take(insole_still_window_t *window,
+                                       const insole_vec3_t *accel_mps2,
+                                       const insole_vec3_t *gyro_radps)
 {
-    return (w->kind == INSOLE_STILL_SHOE && insole_is_finite(part)) ||
-           (insole_vec3_is_finite(accel) && insole_vec3_is_finite(gyro));
+    insole_still_window_t *w = window;
+    move_on(w, accel_mps2, part_of(w, accel_mps2, gyro_radps));
+    return w->sums.part * w->per_n + part_of_mean(w, w->sums.accel);
 }
 
 insole_status_t insole_still_window_push(insole_still_window_t *window, insole_vec3_t accel_mps2,
@@ -116,15 +121,13 @@ insole_status_t insole_still_window_push(insole_still_window_t *window, insole_v
     if (!window || !statistic) {
         return INSOLE_ERR_NULL;
     }
-    insole_still_window_t *w = window;
-    insole_still_sums_t arriving = {accel_mps2, part_of(w, accel_mps2, gyro_radps)};
-    if (!is_finite(w, accel_mps2, gyro_radps, arriving.part)) {
+    if (!insole_vec3_is_finite(accel_mps2) || !insole_vec3_is_finite(gyro_radps)) {
         return INSOLE_ERR_VALUE;
     }
-    insole_still_sums_t sums = w->sums = move_on(w, arriving);
-    if (!w->full) {
+    insole_real_t present = insole_still_window_take(window, &accel_mps2, &gyro_radps);
+    if (!window->full) {
         return INSOLE_ERR_STATE;
     }
-    *statistic = sums.part * w->per_n + part_of_mean(w, sums.accel);
+    *statistic = present;
     return INSOLE_OK;
 }

@@ -52,16 +52,25 @@ INSOLE_COLD insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv
     } else if (config->detector == INSOLE_DETECT_TWO_STEP) {
         zv->ahead_us = zv->hole_us;
     }
+    const insole_real_t thresholds[] = {config->plain_threshold, ONE,
+                                        config->shoe_threshold,  config->mv_threshold,
+                                        config->mag_threshold,   config->are_threshold};
+    zv->threshold = thresholds[config->detector];
     zv->period_s = FIRST_PERIOD_S;
     zv->usual_log = insole_log(config->plain_threshold);
     (void)insole_past_min_init(&zv->past, zv->reach_us);
     return INSOLE_OK;
 }
 
-/* As insole_ring_slot, with a capacity that the compiler knows. */
+/* As insole_ring_slot and insole_ring_is_full, with a capacity that the compiler knows. */
 static insole_stance_slot_t *slot(insole_zero_velocity_t *zv, uint32_t number)
 {
     return &zv->slots[number % INSOLE_STANCE_RING];
+}
+
+static bool is_full(const insole_zero_velocity_t *zv)
+{
+    return insole_ring_count(&zv->ring) >= INSOLE_STANCE_RING;
 }
 
 static insole_real_t seconds(uint32_t from_us, uint32_t to_us)
@@ -105,31 +114,36 @@ static void open_window(insole_zero_velocity_t *zv)
     (void)insole_still_window_init(&zv->window, &scale, 2u * zv->half + 1u);
 }
 
-/* Enough is there to tell the rate, or as much as there will ever be. */
-INSOLE_APART static bool can_open_window(insole_zero_velocity_t *zv)
+/* The window opens once enough is there to tell the rate, or as much as there will ever be. The
+ * first that is full serves the samples before its middle as well. */
+INSOLE_APART static void begin_measuring(insole_zero_velocity_t *zv)
 {
-    if (insole_ring_count(&zv->ring) < RATE_SAMPLES && !zv->finished) {
-        return false;
+    uint32_t number = zv->ring.end - 1u;
+    if (zv->half == 0u) {
+        if (insole_ring_count(&zv->ring) < RATE_SAMPLES && !zv->finished) {
+            return;
+        }
+        open_window(zv);
+        number = zv->ring.begin;
     }
-    open_window(zv);
-    return true;
+    for (; number != zv->ring.end; number++) {
+        const insole_stance_slot_t *s = slot(zv, number);
+        insole_real_t statistic =
+            insole_still_window_take(&zv->window, &s->accel_mps2, &s->gyro_radps);
+        while (zv->window.full && zv->measured + zv->half != number + 1u) {
+            slot(zv, zv->measured++)->statistic = statistic;
+        }
+    }
 }
 
-/* The window moves on; the first that is full serves the samples before its middle as well. */
-static void measure(insole_zero_velocity_t *zv)
+/* The window moves on by the newest sample. */
+static void measure(insole_zero_velocity_t *zv, const insole_imu_t *newest)
 {
-    if (zv->half == 0u && !can_open_window(zv)) {
-        return;
-    }
-    while (zv->fed != zv->ring.end) {
-        insole_real_t statistic;
-        const insole_stance_slot_t *s = slot(zv, zv->fed++);
-        if (insole_still_window_push(&zv->window, s->accel_mps2, s->gyro_radps, &statistic) ==
-            INSOLE_OK) {
-            while (zv->measured + zv->half != zv->fed) {
-                slot(zv, zv->measured++)->statistic = statistic;
-            }
-        }
+    if (zv->window.full) {
+        slot(zv, zv->measured++)->statistic =
+            insole_still_window_take(&zv->window, &newest->accel_mps2, &newest->gyro_radps);
+    } else {
+        begin_measuring(zv);
     }
 }
 
@@ -258,20 +272,6 @@ INSOLE_APART static void judge_two_step(insole_zero_velocity_t *zv, uint32_t num
     }
 }
 
-static insole_real_t threshold(const insole_zero_velocity_config_t *c)
-{
-    switch ((insole_detector_t)c->detector) {
-    case INSOLE_DETECT_MV:
-        return c->mv_threshold;
-    case INSOLE_DETECT_MAG:
-        return c->mag_threshold;
-    case INSOLE_DETECT_ARE:
-        return c->are_threshold;
-    default:
-        return c->shoe_threshold;
-    }
-}
-
 static void judge(insole_zero_velocity_t *zv, uint32_t number)
 {
     insole_stance_slot_t *k = slot(zv, number);
@@ -279,23 +279,37 @@ static void judge(insole_zero_velocity_t *zv, uint32_t number)
         judge_adaptive(zv, number);
     } else if (zv->config.detector == INSOLE_DETECT_TWO_STEP) {
         judge_two_step(zv, number);
-    } else if (k->statistic < threshold(&zv->config)) {
+    } else if (k->statistic < zv->threshold) {
         k->label = LABEL_STILL | LABEL_PLAIN;
         note_plain(zv, k->t_us);
     }
 }
 
-/* Nothing is left to wait for: the oldest of a full line must do with what there is. */
-static bool is_seen(insole_zero_velocity_t *zv, uint32_t number)
-{
-    return (uint32_t)zv->newest_us - slot(zv, number)->t_us >= zv->ahead_us || zv->finished ||
-           (number == zv->ring.begin && insole_ring_is_full(&zv->ring));
-}
-
 static void judge_seen(insole_zero_velocity_t *zv)
 {
-    while (zv->judged != zv->measured && is_seen(zv, zv->judged)) {
+    while (zv->judged != zv->measured &&
+           (uint32_t)zv->newest_us - slot(zv, zv->judged)->t_us >= zv->ahead_us) {
         judge(zv, zv->judged++);
+    }
+}
+
+/* A label is certain when every sample whose judgement may reach back to it has been judged. */
+static void release_labelled(insole_zero_velocity_t *zv)
+{
+    uint32_t judged_us = slot(zv, zv->judged)->t_us;
+    while (zv->released != zv->judged && judged_us - slot(zv, zv->released)->t_us > zv->back_us) {
+        zv->released++;
+    }
+}
+
+/* The oldest of a full line must do with what there is. */
+INSOLE_APART static void release_oldest(insole_zero_velocity_t *zv)
+{
+    if (zv->judged == zv->ring.begin && zv->judged != zv->measured) {
+        judge(zv, zv->judged++);
+    }
+    if (zv->released == zv->ring.begin && zv->released != zv->judged) {
+        zv->released++;
     }
 }
 
@@ -310,8 +324,12 @@ INSOLE_FLAT void insole_zero_velocity_take(insole_zero_velocity_t *zv, const ins
     s->tag = tag;
     s->label = 0u;
     zv->newest_us = imu->t_us;
-    measure(zv);
+    measure(zv, imu);
     judge_seen(zv);
+    release_labelled(zv);
+    if (is_full(zv)) {
+        release_oldest(zv);
+    }
 }
 
 insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const insole_imu_t *imu,
@@ -327,7 +345,7 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
         status = INSOLE_ERR_VALUE;
     } else if (zv->ring.end != 0u && imu->t_us <= zv->newest_us) {
         status = INSOLE_ERR_TIME;
-    } else if (insole_ring_is_full(&zv->ring)) {
+    } else if (is_full(zv)) {
         status = INSOLE_ERR_ROOM;
     }
     if (status != INSOLE_OK) {
@@ -338,38 +356,35 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
     return INSOLE_OK;
 }
 
-/* The samples after the last full window share its statistic. */
-static void measure_rest(insole_zero_velocity_t *zv)
-{
-    measure(zv);
-    bool any = zv->window.full;
-    insole_real_t T = any ? slot(zv, zv->measured - 1u)->statistic : INSOLE_REAL_MAX;
-    while (zv->measured != zv->ring.end) {
-        slot(zv, zv->measured++)->statistic = T;
-    }
-}
-
+/* Nothing is left to wait for. The samples after the last full window share its statistic. */
 INSOLE_COLD insole_status_t insole_zero_velocity_finish(insole_zero_velocity_t *zv)
 {
     if (!zv) {
         return INSOLE_ERR_NULL;
     }
     zv->finished = true;
-    measure_rest(zv);
-    judge_seen(zv);
+    if (zv->half == 0u) {
+        begin_measuring(zv);
+    }
+    for (; zv->measured != zv->ring.end; zv->measured++) {
+        slot(zv, zv->measured)->statistic =
+            zv->window.full ? slot(zv, zv->measured - 1u)->statistic : INSOLE_REAL_MAX;
+    }
+    while (zv->judged != zv->measured) {
+        judge(zv, zv->judged++);
+    }
+    zv->released = zv->judged;
     return INSOLE_OK;
 }
 
-/* Every sample whose judgement may reach back to this one has been judged. */
-static bool is_released(insole_zero_velocity_t *zv, uint32_t number)
+insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out)
 {
-    return number != zv->judged &&
-           (slot(zv, zv->judged)->t_us - slot(zv, number)->t_us > zv->back_us || zv->finished ||
-            insole_ring_is_full(&zv->ring));
-}
-
-INSOLE_APART static insole_status_t release(insole_zero_velocity_t *zv, insole_labelled_t *out)
-{
+    if (!zv || !out) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!insole_zero_velocity_has_next(zv)) {
+        return INSOLE_ERR_STATE;
+    }
     const insole_stance_slot_t *s = slot(zv, zv->ring.begin++);
     uint32_t newest_high = (uint32_t)(zv->newest_us >> 32);
     uint32_t high_us = newest_high - (uint16_t)(newest_high - s->high_us);
@@ -381,12 +396,4 @@ INSOLE_APART static insole_status_t release(insole_zero_velocity_t *zv, insole_l
     out->still = (s->label & LABEL_STILL) != 0u;
     out->plain = (s->label & LABEL_PLAIN) != 0u;
     return INSOLE_OK;
-}
-
-insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out)
-{
-    if (!zv || !out) {
-        return INSOLE_ERR_NULL;
-    }
-    return is_released(zv, zv->ring.begin) ? release(zv, out) : INSOLE_ERR_STATE;
 }

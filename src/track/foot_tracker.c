@@ -60,7 +60,7 @@ insole_status_t insole_foot_tracker_imu(insole_foot_tracker_t *tracker, const in
     insole_clean_t room;
     const insole_clean_t *clean = insole_screen_take(&tracker->screen, imu, &room);
     if (clean) {
-        (void)insole_still_bias_push(&tracker->still_bias, &clean->imu);
+        insole_still_bias_take(&tracker->still_bias, &clean->imu);
         insole_zero_velocity_take(&tracker->zero_velocity, &clean->imu, clean->marks);
     }
     return INSOLE_OK;
@@ -353,24 +353,26 @@ static bool advance(insole_foot_tracker_t *t, insole_labelled_t *s)
     return stride_ended;
 }
 
-/* A labelled sample becomes a fix. */
-INSOLE_APART INSOLE_FLAT static void use(insole_foot_tracker_t *t, insole_labelled_t *s,
-                                         insole_fix_t *fix)
+/* The next labelled sample becomes a fix. */
+INSOLE_APART INSOLE_FLAT static insole_status_t use(insole_foot_tracker_t *t, insole_fix_t *fix)
 {
+    insole_labelled_t s;
+    (void)insole_zero_velocity_next(&t->zero_velocity, &s);
     if (t->counts.fixes == 0u) {
-        (void)insole_foot_anchor_init(&t->anchor, t->config.yaw_drift_radps, s->imu.t_us);
+        (void)insole_foot_anchor_init(&t->anchor, t->config.yaw_drift_radps, s.imu.t_us);
     }
-    bool stride_ended = advance(t, s);
+    bool stride_ended = advance(t, &s);
     if (t->gap_turn_rad2 > ZERO) {
-        leave_gap(t, s->imu.t_us);
+        leave_gap(t, s.imu.t_us);
     }
     if (t->has_start) {
-        reach_start(t, s->imu.t_us);
+        reach_start(t, s.imu.t_us);
     }
     if (t->anchor.strides_left > 0u) {
         (void)insole_foot_anchor_follow(&t->anchor, *position_n(t), stride_ended);
     }
-    make_fix(t, fix, s->imu.t_us);
+    make_fix(t, fix, s.imu.t_us);
+    return INSOLE_OK;
 }
 
 insole_status_t insole_foot_tracker_next(insole_foot_tracker_t *tracker, insole_fix_t *fix)
@@ -378,12 +380,8 @@ insole_status_t insole_foot_tracker_next(insole_foot_tracker_t *tracker, insole_
     if (!tracker || !fix) {
         return INSOLE_ERR_NULL;
     }
-    insole_labelled_t s;
-    if (insole_zero_velocity_next(&tracker->zero_velocity, &s) != INSOLE_OK) {
-        return INSOLE_ERR_STATE;
-    }
-    use(tracker, &s, fix);
-    return INSOLE_OK;
+    return insole_zero_velocity_has_next(&tracker->zero_velocity) ? use(tracker, fix)
+                                                                  : INSOLE_ERR_STATE;
 }
 
 insole_status_t insole_foot_tracker_stride(insole_foot_tracker_t *tracker, insole_stride_t *stride)

@@ -224,7 +224,7 @@ static void cross_gap(insole_phone_tracker_t *t, uint64_t t_us)
 static void face(insole_phone_tracker_t *t, const insole_clean_t *clean)
 {
     uint32_t rests = t->still_bias.rests;
-    (void)insole_still_bias_push(&t->still_bias, &clean->imu);
+    insole_still_bias_take(&t->still_bias, &clean->imu);
     if (t->still_bias.rests != rests) {
         (void)insole_attitude_set_bias(&t->attitude, t->still_bias.gyro_bias_radps);
     }

@@ -190,6 +190,29 @@ START_TEST(bad_samples_are_refused)
 }
 END_TEST
 
+/* Whoever only remembers the quiet ones sees the same. */
+START_TEST(quiet_rates_need_only_be_remembered)
+{
+    insole_gyro_clip_t pushed = fresh(0.0, 0.88), watched = pushed;
+    int quiet = 0;
+    for (int i = 0; i < 2000; i++) {
+        double y = fmin(14.0 * sin(0.05 * i) * sin(0.003 * i), 9.0);
+        insole_vec3_t gyro = insole_vec3(1, (insole_real_t)y, -2);
+        uint8_t axes = push(&pushed, 1.0, y, -2.0, 0.005);
+        if (insole_gyro_clip_is_quiet(&watched, &gyro)) {
+            insole_gyro_clip_remember(&watched, &gyro);
+            ck_assert_uint_eq(axes, 0u);
+            quiet++;
+        } else {
+            ck_assert_uint_eq(push(&watched, 1.0, y, -2.0, 0.005), axes);
+        }
+        ck_assert_int_eq(memcmp(&pushed, &watched, sizeof pushed), 0);
+    }
+    ck_assert_int_gt(quiet, 300);
+    ck_assert_int_lt(quiet, 1700);
+}
+END_TEST
+
 START_TEST(a_copy_goes_on_alike)
 {
     insole_gyro_clip_t clip = fresh(0.0, 0.88);
@@ -218,6 +241,7 @@ Suite *insole_suite(void)
     suite_add(suite, "gap", time_that_is_not_known_ends_a_peak);
     suite_add(suite, "settings", bad_settings_are_refused);
     suite_add(suite, "samples", bad_samples_are_refused);
+    suite_add(suite, "quiet", quiet_rates_need_only_be_remembered);
     suite_add(suite, "copy", a_copy_goes_on_alike);
     return suite;
 }

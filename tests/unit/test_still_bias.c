@@ -230,6 +230,80 @@ START_TEST(later_rests_follow_the_bias)
 }
 END_TEST
 
+/* ---- against blocks that are summed to their end ---- */
+
+enum { BLOCK = 25, LONGEST = BLOCK + 1 }; /* the first holds the sample that begins it as well */
+
+typedef struct {
+    double mean[6], var_accel, var_gyro;
+} whole_t;
+
+static whole_t whole_block(const insole_imu_t *of, int count)
+{
+    whole_t w = {{0.0}, 0.0, 0.0};
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < count; i++) {
+            const insole_vec3_t a = of[i].accel_mps2, g = of[i].gyro_radps;
+            const double v[6] = {(double)a.x, (double)a.y, (double)a.z,
+                                 (double)g.x, (double)g.y, (double)g.z};
+            for (int axis = 0; axis < 6; axis++) {
+                double *var = axis < 3 ? &w.var_accel : &w.var_gyro;
+                double off = v[axis] - w.mean[axis];
+                *(pass == 0 ? &w.mean[axis] : var) += (pass == 0 ? v[axis] : off * off) / count;
+            }
+        }
+    }
+    return w;
+}
+
+static bool agree(const double *a, const double *b, double var, double apart, double quiet)
+{
+    double d2 = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        d2 += (a[axis] - b[axis]) * (a[axis] - b[axis]);
+    }
+    return sqrt(d2) < apart && 0.5 * var + 0.25 * d2 < quiet * quiet;
+}
+
+static bool is_rest(const whole_t *a, const whole_t *b)
+{
+    const insole_still_bias_config_t *c = &insole_still_bias_defaults;
+    return agree(a->mean, b->mean, a->var_accel + b->var_accel, (double)c->agree_mps2,
+                 (double)c->quiet_accel_mps2) &&
+           agree(a->mean + 3, b->mean + 3, a->var_gyro + b->var_gyro, (double)c->agree_radps,
+                 (double)c->quiet_gyro_radps);
+}
+
+/* Quiet spells and spells of all sizes of shaking, and blows: what is not summed to its end would
+ * not have been a rest. */
+START_TEST(what_is_left_out_would_tell_nothing)
+{
+    bench_t b = bench(200.0, 20u + (uint64_t)_i);
+    whole_t now, before = {{0.0}, 0.0, 0.0};
+    insole_imu_t block[LONGEST];
+    uint32_t rests = 0u, lively = 0u;
+    const double none[3] = {0.0, 0.0, 0.0};
+    for (int n = 0; n < 400; n++) {
+        int count = n == 0 ? LONGEST : BLOCK;
+        b.gyro_noise = 0.003 * exp(6.0 * fmax(0.0, 2.0 * (double)insole_rng_uniform(&b.rng) - 1.0));
+        b.accel_noise = 4.0 * b.gyro_noise;
+        for (int i = 0; i < count; i++) {
+            b.t_s += 0.005;
+            block[i] = reading(&b, none, 0.0);
+            block[i].accel_mps2.y += insole_rng_uniform(&b.rng) > INSOLE_R(0.999) ? 20 : 0;
+            lively += b.rest.block.lively ? 1u : 0u;
+            insole_still_bias_take(&b.rest, &block[i]);
+        }
+        now = whole_block(block, count);
+        rests += n > 0 && is_rest(&now, &before) ? 1u : 0u;
+        ck_assert_uint_eq(b.rest.rests, rests);
+        before = now;
+    }
+    ck_assert_uint_gt(rests, 20u);
+    ck_assert_uint_gt(lively, 50u * BLOCK);
+}
+END_TEST
+
 static insole_still_bias_config_t config;
 
 static insole_status_t judge(void)
@@ -288,6 +362,23 @@ START_TEST(slow_sensors_get_longer_blocks)
 }
 END_TEST
 
+START_TEST(what_is_known_to_be_good_is_taken_alike)
+{
+    bench_t b = bench(200.0, 13u);
+    insole_still_bias_t taken = b.rest;
+    const double none[3] = {0.0, 0.0, 0.0};
+    for (int i = 0; i < 2000; i++) {
+        b.t_s += i % 500 == 499 ? 0.2 : 0.005;
+        b.gyro_noise = i % 300 > 200 ? 2.0 : 0.005;
+        insole_imu_t imu = reading(&b, none, 0.0);
+        ck_assert_int_eq(insole_still_bias_push(&b.rest, &imu), INSOLE_OK);
+        insole_still_bias_take(&taken, &imu);
+        ck_assert_int_eq(memcmp(&b.rest, &taken, sizeof taken), 0);
+    }
+    ck_assert_uint_gt(taken.rests, 10u);
+}
+END_TEST
+
 START_TEST(a_copy_goes_on_alike)
 {
     bench_t b = bench(200.0, 12u);
@@ -312,9 +403,11 @@ Suite *insole_suite(void)
     suite_add(suite, "shaking", what_shakes_does_not_rest);
     suite_add_loop(suite, "stances", stances_never_feed_it, 24);
     suite_add(suite, "later", later_rests_follow_the_bias);
+    suite_add_loop(suite, "lively", what_is_left_out_would_tell_nothing, 6);
     suite_add(suite, "settings", settings_have_their_ranges);
     suite_add(suite, "samples", bad_samples_are_refused);
     suite_add(suite, "slow", slow_sensors_get_longer_blocks);
+    suite_add(suite, "unchecked", what_is_known_to_be_good_is_taken_alike);
     suite_add(suite, "copy", a_copy_goes_on_alike);
     return suite;
 }

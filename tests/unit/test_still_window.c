@@ -218,6 +218,23 @@ START_TEST(bad_samples_are_refused)
 }
 END_TEST
 
+START_TEST(what_is_known_to_be_finite_is_taken_alike)
+{
+    insole_still_window_t pushed = opened((insole_still_kind_t)_i, 7u), taken = pushed;
+    insole_rng_t rng;
+    insole_rng_seed(&rng, 4u);
+    for (int i = 0; i < STREAM; i++) {
+        reading_t r = random_reading(&rng);
+        insole_real_t a;
+        insole_status_t status = insole_still_window_push(&pushed, r.accel, r.gyro, &a);
+        insole_real_t b = insole_still_window_take(&taken, &r.accel, &r.gyro);
+        ck_assert_int_eq(status == INSOLE_OK, taken.full);
+        ck_assert(status != INSOLE_OK || a == b);
+        ck_assert_int_eq(memcmp(&pushed, &taken, sizeof pushed), 0);
+    }
+}
+END_TEST
+
 START_TEST(a_copy_goes_on_alike)
 {
     insole_still_window_t window = opened(INSOLE_STILL_SHOE, 9u);
@@ -249,6 +266,7 @@ Suite *insole_suite(void)
     suite_add_loop(suite, "mounting", mounting_does_not_matter, 4);
     suite_add(suite, "settings", bad_settings_are_refused);
     suite_add(suite, "samples", bad_samples_are_refused);
+    suite_add_loop(suite, "unchecked", what_is_known_to_be_finite_is_taken_alike, 4);
     suite_add(suite, "copy", a_copy_goes_on_alike);
     return suite;
 }

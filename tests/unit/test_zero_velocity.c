@@ -56,10 +56,12 @@ static record_t record, other;
 static void take(insole_zero_velocity_t *zv, record_t *r, uint64_t now_us)
 {
     insole_labelled_t out;
-    while (insole_zero_velocity_next(zv, &out) == INSOLE_OK) {
+    while (insole_zero_velocity_has_next(zv)) {
+        ck_assert_int_eq(insole_zero_velocity_next(zv, &out), INSOLE_OK);
         r->latest_s = fmax(r->latest_s, 1e-6 * (double)(now_us - out.imu.t_us));
         r->out[r->count++] = out;
     }
+    ck_assert_int_eq(insole_zero_velocity_next(zv, &out), INSOLE_ERR_STATE);
 }
 
 static void run_from(insole_zero_velocity_t *zv, const gait_t *gait, double rate_hz, double from_s,

@@ -43,6 +43,24 @@ insole_status_t insole_even_clock_init(insole_even_clock_t *clock);
  *  @return INSOLE_ERR_STATE while the period is being learned; INSOLE_ERR_NULL, INSOLE_ERR_VALUE */
 insole_status_t insole_even_clock_tick(insole_even_clock_t *clock, uint32_t dt_us);
 
+/** The same for a clock that knows its period, for dt_us > 0. Nothing is checked. */
+static inline void insole_even_clock_go_on(insole_even_clock_t *clock, uint32_t dt_us)
+{
+    const insole_real_t phase_gain = INSOLE_R(0.05),
+                        period_gain = INSOLE_R(0.0006); /* per sample */
+    const insole_real_t burst_interval_share = INSOLE_R(0.75), burst_weight = INSOLE_R(0.01);
+    insole_real_t dt = (insole_real_t)dt_us, period = clock->period_us, none = INSOLE_R(0.0);
+    insole_real_t error_us = dt - period - clock->lead_us; /* raw less expected */
+    insole_real_t too_soon = dt < burst_interval_share * period ? INSOLE_R(1.0) : none;
+    clock->burst_share += burst_weight * (too_soon - clock->burst_share);
+    if (insole_abs(error_us) > (insole_real_t)INSOLE_EVEN_CLOCK_REACH_US) {
+        clock->lead_us = none;
+        return;
+    }
+    clock->lead_us = -(INSOLE_R(1.0) - phase_gain) * error_us;
+    clock->period_us = period + period_gain * error_us;
+}
+
 /** The next stamp is right. */
 void insole_even_clock_restart(insole_even_clock_t *clock);
 

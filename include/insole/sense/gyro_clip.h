@@ -45,6 +45,22 @@ typedef struct {
 insole_status_t insole_gyro_clip_init(insole_gyro_clip_t *clip, insole_real_t range_radps,
                                       insole_real_t share);
 
+/** Is it so slow that only its size is of interest? */
+static inline bool insole_gyro_clip_is_quiet(const insole_gyro_clip_t *clip,
+                                             const insole_vec3_t *gyro_radps)
+{
+    return insole_vec3_norm2(*gyro_radps) < clip->quiet_radps2;
+}
+
+/** As insole_gyro_clip_push for a rate that is quiet and follows another. Nothing is checked. */
+static inline void insole_gyro_clip_remember(insole_gyro_clip_t *clip,
+                                             const insole_vec3_t *gyro_radps)
+{
+    clip->peak[0].last_radps = insole_abs(gyro_radps->x);
+    clip->peak[1].last_radps = insole_abs(gyro_radps->y);
+    clip->peak[2].last_radps = insole_abs(gyro_radps->z);
+}
+
 /** @param dt_us      time since the sample before; 0 = unknown, what was being watched is over
  *  @param[out] axes  bit m set: axis m is at the end of its range
  *  @return INSOLE_ERR_NULL, INSOLE_ERR_VALUE: a rate is not finite, or the time not 0 or more */

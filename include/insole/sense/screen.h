@@ -97,13 +97,15 @@ typedef struct {
 typedef struct {
     insole_screen_config_t config;
     insole_screen_counts_t counts;
-    uint32_t gap_us, hold_us, least_us;    /**< settings; the shortest interval that goes out */
-    insole_real_t calm_accel2, calm_gyro2; /**< squares of the lengths below which all is calm */
+    uint32_t gap_us, hold_us, least_us;      /**< settings; the shortest interval that goes out */
+    insole_real_t calm_accel2, calm_gyro2;   /**< squares of the lengths below which all is calm */
+    insole_real_t spike_accel2, spike_gyro2; /**< squares of the settings */
     insole_even_clock_t clock;
     insole_screen_slot_t slots[2]; /**< the sample that waits for its successor, the one before */
     uint32_t newest;               /**< slot of the former */
     uint32_t held;                 /**< of these two, how many there are */
     insole_screen_look_t look;     /**< of the former */
+    bool flowing;                  /**< one waits, and since it came none was dropped */
     uint32_t back_run;             /**< samples dropped in a row, their stamps going back */
     uint64_t good_us;              /**< raw stamp of the last sample before fields were held */
     insole_gyro_clip_t clip;

@@ -15,6 +15,15 @@
 extern "C" {
 #endif
 
+/** Not worth looking at unless `middle` is this far from one of its neighbours.
+ *  @param limit2  square of the distance */
+static inline bool insole_spike_may_be(const insole_vec3_t *before, const insole_vec3_t *middle,
+                                       insole_real_t limit2)
+{
+    insole_vec3_t rise = insole_vec3_sub(*middle, *before);
+    return !(insole_vec3_norm2(rise) <= limit2);
+}
+
 /** Axes of `middle` that are a spike get the mean of their neighbours.
  *  @param limit  smallest distance of a spike from both neighbours
  *  @return true when there was one; false for NULL */

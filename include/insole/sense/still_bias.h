@@ -3,7 +3,8 @@
  *  A stance is not a rest: the foot rolls while it stands, and a bias learned there is wrong. The
  *  stream is cut into blocks of an eighth of a second; only two blocks in a row that are quiet and
  *  agree with each other count, and the less they agree the less they count. Both are judged by
- *  lengths of vectors, so that a turned sensor learns the same.
+ *  lengths of vectors, so that a turned sensor learns the same. Samples come at 256 Hz at most, as
+ *  screen.h sees to: a faster sensor has to lie the quieter.
  *
  *  Frames  b: sensor, any mounting.
  *
@@ -65,6 +66,7 @@ typedef struct {
     insole_vec3_t accel, gyro;   /**< sums of differences to the first sample */
     insole_real_t accel2, gyro2; /**< sums of their squares, all axes */
     uint32_t count;
+    bool lively; /**< it is no rest, whatever comes: nothing more is added to the sums */
 } insole_still_block_t;
 
 /** Means over one block and variances, those of all axes together. */
@@ -82,7 +84,7 @@ typedef struct {
     uint64_t first_us, last_us;
     insole_still_block_t block;    /**< being filled */
     insole_still_moments_t before; /**< of the block before */
-    bool has_before;               /**< there was no gap since */
+    bool has_before;               /**< there was one, no gap since, and it may have been quiet */
     uint32_t rests;                /**< times the bias was learned */
     uint32_t gravity_rests;        /**< of these, used for gravity */
     bool has_first;
@@ -95,6 +97,10 @@ insole_status_t insole_still_bias_init(insole_still_bias_t *rest,
 
 /** @return INSOLE_ERR_TIME, INSOLE_ERR_VALUE for a sample that is not finite */
 insole_status_t insole_still_bias_push(insole_still_bias_t *rest, const insole_imu_t *imu);
+
+/** The same for what is known to be welcome: a sample of screen.h that follows the last. Nothing is
+ *  checked. */
+void insole_still_bias_take(insole_still_bias_t *rest, const insole_imu_t *imu);
 
 #ifdef __cplusplus
 }

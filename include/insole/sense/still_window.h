@@ -50,7 +50,8 @@ typedef struct {
 typedef struct {
     insole_still_kind_t kind;
     insole_real_t gravity_mps2, accel_weight, gyro_weight; /**< g, 1 / sa^2, 1 / sw^2 */
-    insole_real_t per_n;                                   /**< 1 / width */
+    insole_real_t per_n, two_per_n;                        /**< 1 / width, 2 / width */
+    insole_real_t mean_weight;                             /**< of what the mean adds */
     uint32_t width;                                        /**< of the window [samples] */
     uint32_t at;                                           /**< slot of the next sample */
     bool full;                                             /**< `width` samples have come */
@@ -68,6 +69,12 @@ insole_status_t insole_still_window_init(insole_still_window_t *window,
  *          sample that is not finite */
 insole_status_t insole_still_window_push(insole_still_window_t *window, insole_vec3_t accel_mps2,
                                          insole_vec3_t gyro_radps, insole_real_t *statistic);
+
+/** The same for a sample that is known to be finite. Nothing is checked.
+ *  @return the statistic; it means something once the window is full */
+insole_real_t insole_still_window_take(insole_still_window_t *window,
+                                       const insole_vec3_t *accel_mps2,
+                                       const insole_vec3_t *gyro_radps);
 
 #ifdef __cplusplus
 }

@@ -115,10 +115,11 @@ typedef struct {
     uint32_t reach_us, spread_us, hole_us; /**< settings in microseconds */
     uint32_t ahead_us;                     /**< time after a sample that its judgement looks at */
     uint32_t back_us;                      /**< time before a sample that its judgement may label */
+    insole_real_t threshold;               /**< of the detector, where it knows one only */
     uint32_t half;                         /**< half window [samples]; 0 until the rate is known */
-    uint32_t fed;            /**< running number of the next slot that the window is to take */
     uint32_t measured;       /**< running number of the next slot whose statistic is to be formed */
     uint32_t judged;         /**< running number of the next slot to be judged */
+    uint32_t released;       /**< running number after the slots whose label is certain */
     insole_past_min_t past;  /**< of the statistic */
     uint32_t last_still_us;  /**< low half of the stamp of the last still sample */
     uint32_t last_stance_us; /**< of the last stance's first sample or minimum */
@@ -144,6 +145,12 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
 /** The same for what is known to be welcome: a sample of screen.h that follows the last, and room
  *  for it. Nothing is checked. */
 void insole_zero_velocity_take(insole_zero_velocity_t *zv, const insole_imu_t *imu, uint8_t tag);
+
+/** Is there a sample whose label is certain? */
+static inline bool insole_zero_velocity_has_next(const insole_zero_velocity_t *zv)
+{
+    return zv->ring.begin != zv->released;
+}
 
 /** The oldest sample whose label is certain. @return INSOLE_ERR_STATE when there is none yet */
 insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out);
