@@ -62,15 +62,10 @@ INSOLE_COLD insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv
     return INSOLE_OK;
 }
 
-/* As insole_ring_slot and insole_ring_is_full, with a capacity that the compiler knows. */
+/* As insole_ring_slot, with a capacity that the compiler knows. */
 static insole_stance_slot_t *slot(insole_zero_velocity_t *zv, uint32_t number)
 {
     return &zv->slots[number % INSOLE_STANCE_RING];
-}
-
-static bool is_full(const insole_zero_velocity_t *zv)
-{
-    return insole_ring_count(&zv->ring) >= INSOLE_STANCE_RING;
 }
 
 static insole_real_t seconds(uint32_t from_us, uint32_t to_us)
@@ -327,7 +322,7 @@ INSOLE_FLAT void insole_zero_velocity_take(insole_zero_velocity_t *zv, const ins
     measure(zv, imu);
     judge_seen(zv);
     release_labelled(zv);
-    if (is_full(zv)) {
+    if (insole_zero_velocity_is_full(zv)) {
         release_oldest(zv);
     }
 }
@@ -345,7 +340,7 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
         status = INSOLE_ERR_VALUE;
     } else if (zv->ring.end != 0u && imu->t_us <= zv->newest_us) {
         status = INSOLE_ERR_TIME;
-    } else if (is_full(zv)) {
+    } else if (insole_zero_velocity_is_full(zv)) {
         status = INSOLE_ERR_ROOM;
     }
     if (status != INSOLE_OK) {
