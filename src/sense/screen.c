@@ -340,12 +340,9 @@ INSOLE_COLD static const insole_clean_t *take_doubtful(insole_screen_t *s, const
     return out;
 }
 
-INSOLE_FLAT const insole_clean_t *insole_screen_take(insole_screen_t *screen,
+INSOLE_FLAT const insole_clean_t *insole_screen_pass(insole_screen_t *screen,
                                                      const insole_imu_t *raw, insole_clean_t *room)
 {
-    if (!screen || !raw || !room) {
-        return NULL;
-    }
     insole_screen_t *s = screen;
     insole_screen_look_t look = look_at(s, raw);
     insole_screen_slot_t *last = pending(s), *slot = before(s);
