@@ -5,7 +5,8 @@
 
 /* The rows of p' = p + T v - S a: rows of P_pv and of P_pa x s give to that of P_pp, one half the
  * old and one the new ones. */
-INSOLE_APART INSOLE_FLAT static void move_rows(insole_zupt_cov_t *P, insole_vec3_t s, insole_real_t T)
+INSOLE_APART INSOLE_FLAT static void move_rows(insole_zupt_cov_t *P, insole_vec3_t s,
+                                               insole_real_t T)
 {
     insole_sym3_t *pp = &P->pp;
     insole_mat3_t pv = P->pv, pa = P->pa;
@@ -68,8 +69,8 @@ INSOLE_APART INSOLE_FLAT static void gain_rows(insole_zupt_cov_t *P,
 
 #endif
 
-void insole_zupt_cov_propagate(insole_zupt_cov_t *P,
-                                           const insole_zupt_interval_t *interval, bool has_bias)
+void insole_zupt_cov_propagate(insole_zupt_cov_t *P, const insole_zupt_interval_t *interval,
+                               bool has_bias)
 {
     /* [TwoOrder (20)-(21)], [TwoOrder (24)] */
     move_rows(P, interval->s_m, interval->time_s);
