@@ -105,6 +105,7 @@ INSOLE_COLD static bool align(insole_foot_tracker_t *t, const insole_labelled_t 
     }
     *mean_accel = insole_vec3_scale(t->still_accel, INSOLE_R(1.0) / (insole_real_t)t->still_count);
     t->still_count = 0u;
+    t->unmeasured_s = ZERO; /* its velocity is none */
     t->zupt_ekf.gravity_mps2 = t->still_bias.gravity_mps2;
     return insole_zupt_ekf_align(&t->zupt_ekf, *mean_accel, sigma_tilt_rad, ZERO, s->imu.t_us) ==
            INSOLE_OK;
