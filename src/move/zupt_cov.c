@@ -134,19 +134,31 @@ INSOLE_COLD insole_zupt_error_t insole_zupt_cov_of_height(const insole_zupt_cov_
     return x;
 }
 
-static void subtract_outer(insole_zupt_cov_t *P, const insole_zupt_error_t *k, insole_real_t per_s)
+INSOLE_COLD static void add_square(insole_sym3_t *block, insole_real_t s, const insole_vec3_t *k)
 {
-    P->pp = insole_sym3_add_outer(P->pp, -per_s, k->p);
-    P->vv = insole_sym3_add_outer(P->vv, -per_s, k->v);
-    P->aa = insole_sym3_add_outer(P->aa, -per_s, k->a);
-    P->pv = insole_mat3_add_outer(P->pv, -per_s, k->p, k->v);
-    P->pa = insole_mat3_add_outer(P->pa, -per_s, k->p, k->a);
-    P->va = insole_mat3_add_outer(P->va, -per_s, k->v, k->a);
+    *block = insole_sym3_add_outer(*block, s, *k);
+}
+
+INSOLE_COLD static void add_outer(insole_mat3_t *block, insole_real_t s, const insole_vec3_t *row,
+                                  const insole_vec3_t *column)
+{
+    *block = insole_mat3_add_outer(*block, s, *row, *column);
+}
+
+INSOLE_COLD static void subtract_outer(insole_zupt_cov_t *P, const insole_zupt_error_t *k,
+                                       insole_real_t per_s)
+{
+    add_square(&P->pp, -per_s, &k->p);
+    add_square(&P->vv, -per_s, &k->v);
+    add_square(&P->aa, -per_s, &k->a);
+    add_outer(&P->pv, -per_s, &k->p, &k->v);
+    add_outer(&P->pa, -per_s, &k->p, &k->a);
+    add_outer(&P->va, -per_s, &k->v, &k->a);
 #if INSOLE_ZUPT_STATES == 12
-    P->bb = insole_sym3_add_outer(P->bb, -per_s, k->b);
-    P->pb = insole_mat3_add_outer(P->pb, -per_s, k->p, k->b);
-    P->vb = insole_mat3_add_outer(P->vb, -per_s, k->v, k->b);
-    P->ab = insole_mat3_add_outer(P->ab, -per_s, k->a, k->b);
+    add_square(&P->bb, -per_s, &k->b);
+    add_outer(&P->pb, -per_s, &k->p, &k->b);
+    add_outer(&P->vb, -per_s, &k->v, &k->b);
+    add_outer(&P->ab, -per_s, &k->a, &k->b);
 #endif
 }
 

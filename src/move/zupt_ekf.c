@@ -370,8 +370,8 @@ INSOLE_COLD insole_status_t insole_zupt_ekf_coast(insole_zupt_ekf_t *ekf,
     }
     ekf->p_m = insole_vec3_add_scaled(ekf->p_m, dt, velocity_mps);
     ekf->v_mps = velocity_mps;
-    P->pp = insole_sym3_add_scaled(insole_sym3_add_twice(P->pp, dt, P->pv), dt * dt, P->vv);
-    P->pv = insole_mat3_add_scaled(P->pv, dt, insole_sym3_full(P->vv));
+    const insole_zupt_interval_t interval = {.time_s = dt};
+    insole_zupt_cov_propagate(P, &interval, false);
     ekf->t_us = t_us;
     begin_trace(ekf, INSOLE_ZUPT_STEP_COAST);
     return INSOLE_OK;

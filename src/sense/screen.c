@@ -48,8 +48,6 @@ insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_
     screen->least_us = insole_microseconds(INTERVAL_SHARE / config->max_rate_hz);
     screen->calm_accel2 =
         insole_square(insole_min(CALM_SHARE * config->spike_accel_mps2, ACCEL_LIMIT_MPS2));
-    screen->spike_accel2 = insole_square(config->spike_accel_mps2);
-    screen->spike_gyro2 = insole_square(config->spike_gyro_radps);
     return insole_gyro_clip_init(&screen->clip, config->gyro_range_radps, config->clip_share);
 }
 
@@ -193,12 +191,13 @@ static void mend(insole_screen_t *s, const insole_imu_t *after, uint32_t since_u
     }
     const insole_imu_t *first = &before(s)->clean.imu;
     insole_imu_t *middle = &slot->clean.imu;
-    bool accel = insole_spike_may_be(&first->accel_mps2, &middle->accel_mps2, s->spike_accel2) &&
-                 insole_spike_mend(first->accel_mps2, &middle->accel_mps2, after->accel_mps2,
-                                   s->config.spike_accel_mps2);
-    bool gyro = insole_spike_may_be(&first->gyro_radps, &middle->gyro_radps, s->spike_gyro2) &&
-                insole_spike_mend(first->gyro_radps, &middle->gyro_radps, after->gyro_radps,
-                                  s->config.spike_gyro_radps);
+    insole_real_t far_mps2 = s->config.spike_accel_mps2, far_radps = s->config.spike_gyro_radps;
+    bool accel =
+        insole_spike_may_be(&first->accel_mps2, &middle->accel_mps2, far_mps2) &&
+        insole_spike_mend(first->accel_mps2, &middle->accel_mps2, after->accel_mps2, far_mps2);
+    bool gyro =
+        insole_spike_may_be(&first->gyro_radps, &middle->gyro_radps, far_radps) &&
+        insole_spike_mend(first->gyro_radps, &middle->gyro_radps, after->gyro_radps, far_radps);
     s->counts.spikes += accel || gyro ? 1u : 0u;
 }
 
@@ -305,9 +304,9 @@ static uint8_t look_closely(insole_screen_t *s, const insole_imu_t *imu, uint32_
 }
 
 /* Of which anything may be the matter. */
-INSOLE_APART static const insole_clean_t *take_doubtful(insole_screen_t *s, const insole_imu_t *imu,
-                                                        insole_screen_look_t look,
-                                                        insole_clean_t *room)
+INSOLE_COLD static const insole_clean_t *take_doubtful(insole_screen_t *s, const insole_imu_t *imu,
+                                                       insole_screen_look_t look,
+                                                       insole_clean_t *room)
 {
     if (s->finished) {
         return NULL;

@@ -20,7 +20,7 @@ static bool mend(insole_real_t before, insole_real_t *middle, insole_real_t afte
 bool insole_spike_mend(insole_vec3_t before, insole_vec3_t *middle, insole_vec3_t after,
                        insole_real_t limit)
 {
-    if (!middle || !insole_spike_may_be(&before, middle, insole_square(limit))) {
+    if (!middle) {
         return false;
     }
     bool x = mend(before.x, &middle->x, after.x, limit);

@@ -62,15 +62,10 @@ INSOLE_COLD insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv
     return INSOLE_OK;
 }
 
-/* As insole_ring_slot and insole_ring_is_full, with a capacity that the compiler knows. */
+/* As insole_ring_slot, with a capacity that the compiler knows. */
 static insole_stance_slot_t *slot(insole_zero_velocity_t *zv, uint32_t number)
 {
     return &zv->slots[number % INSOLE_STANCE_RING];
-}
-
-static bool is_full(const insole_zero_velocity_t *zv)
-{
-    return insole_ring_count(&zv->ring) >= INSOLE_STANCE_RING;
 }
 
 static insole_real_t seconds(uint32_t from_us, uint32_t to_us)
@@ -116,7 +111,7 @@ static void open_window(insole_zero_velocity_t *zv)
 
 /* The window opens once enough is there to tell the rate, or as much as there will ever be. The
  * first that is full serves the samples before its middle as well. */
-INSOLE_APART static void begin_measuring(insole_zero_velocity_t *zv)
+INSOLE_COLD static void begin_measuring(insole_zero_velocity_t *zv)
 {
     uint32_t number = zv->ring.end - 1u;
     if (zv->half == 0u) {
@@ -213,7 +208,7 @@ static void label_if_below(insole_zero_velocity_t *zv, uint32_t number, insole_r
 }
 
 /* The minimum and its neighbours, as far as they are nearly as still. */
-static void spread(insole_zero_velocity_t *zv, uint32_t number)
+INSOLE_APART static void spread(insole_zero_velocity_t *zv, uint32_t number)
 {
     const insole_stance_slot_t *k = slot(zv, number);
     insole_real_t limit = zv->config.spread_factor * k->statistic;
@@ -302,11 +297,16 @@ static void release_labelled(insole_zero_velocity_t *zv)
     }
 }
 
+INSOLE_COLD static void judge_next(insole_zero_velocity_t *zv)
+{
+    judge(zv, zv->judged++);
+}
+
 /* The oldest of a full line must do with what there is. */
-INSOLE_APART static void release_oldest(insole_zero_velocity_t *zv)
+INSOLE_COLD static void release_oldest(insole_zero_velocity_t *zv)
 {
     if (zv->judged == zv->ring.begin && zv->judged != zv->measured) {
-        judge(zv, zv->judged++);
+        judge_next(zv);
     }
     if (zv->released == zv->ring.begin && zv->released != zv->judged) {
         zv->released++;
@@ -327,7 +327,7 @@ INSOLE_FLAT void insole_zero_velocity_take(insole_zero_velocity_t *zv, const ins
     measure(zv, imu);
     judge_seen(zv);
     release_labelled(zv);
-    if (is_full(zv)) {
+    if (insole_zero_velocity_is_full(zv)) {
         release_oldest(zv);
     }
 }
@@ -345,7 +345,7 @@ insole_status_t insole_zero_velocity_push(insole_zero_velocity_t *zv, const inso
         status = INSOLE_ERR_VALUE;
     } else if (zv->ring.end != 0u && imu->t_us <= zv->newest_us) {
         status = INSOLE_ERR_TIME;
-    } else if (is_full(zv)) {
+    } else if (insole_zero_velocity_is_full(zv)) {
         status = INSOLE_ERR_ROOM;
     }
     if (status != INSOLE_OK) {
@@ -371,7 +371,7 @@ INSOLE_COLD insole_status_t insole_zero_velocity_finish(insole_zero_velocity_t *
             zv->window.full ? slot(zv, zv->measured - 1u)->statistic : INSOLE_REAL_MAX;
     }
     while (zv->judged != zv->measured) {
-        judge(zv, zv->judged++);
+        judge_next(zv);
     }
     zv->released = zv->judged;
     return INSOLE_OK;

@@ -118,7 +118,7 @@ INSOLE_COLD insole_status_t insole_foot_anchor_renew(insole_foot_anchor_t *ancho
 /* 1-sigma squared of the turn at a later time. */
 static insole_real_t turn_variance(const insole_foot_anchor_t *a, uint64_t t_us)
 {
-    insole_real_t age_s = t_us > a->t_us ? insole_seconds(a->t_us, t_us) : ZERO;
+    insole_real_t age_s = t_us > a->t_us ? insole_seconds_of(t_us - a->t_us) : ZERO;
     return insole_min(a->var_rad2 + insole_square(age_s * a->drift_radps), ANY_TURN_RAD2);
 }
 
@@ -128,16 +128,16 @@ static insole_real_t positive(insole_real_t variance)
     return insole_max(variance, ZERO);
 }
 
-/* What may call other functions comes first: nothing else need be kept then. */
-insole_status_t insole_foot_anchor_put(const insole_foot_anchor_t *anchor,
-                                       const insole_vec3_t *position_n_m,
-                                       const insole_sym3_t *cov_n_m2, insole_fix_t *fix)
+INSOLE_COLD static void wrap_heading(insole_fix_t *fix)
 {
-    if (!anchor || !position_n_m || !cov_n_m2 || !fix) {
-        return INSOLE_ERR_NULL;
-    }
+    fix->heading_rad = insole_wrap_pi(fix->heading_rad);
+}
+
+/* What may call another function comes last: nothing need be kept then. */
+void insole_foot_anchor_place(const insole_foot_anchor_t *anchor, const insole_vec3_t *position_n_m,
+                              const insole_sym3_t *cov_n_m2, insole_fix_t *fix)
+{
     const insole_foot_anchor_t *a = anchor;
-    fix->heading_rad = insole_wrap_pi(fix->heading_rad + a->yaw_rad);
     insole_real_t var_yaw = turn_variance(a, fix->t_us), c = a->turn.cos, s = a->turn.sin;
     insole_real_t xx = cov_n_m2->xx, xy = cov_n_m2->xy, yy = cov_n_m2->yy;
     insole_vec3_t d = insole_vec3_sub(*position_n_m, a->anchor_n_m);
@@ -151,7 +151,10 @@ insole_status_t insole_foot_anchor_put(const insole_foot_anchor_t *anchor,
     fix->var_y_m2 = positive(var_y + (a->var_m2 + var_yaw * way.x * way.x));
     fix->var_z_m2 = positive(cov_n_m2->zz);
     fix->var_heading_rad2 = positive(fix->var_heading_rad2 + var_yaw);
-    return INSOLE_OK;
+    fix->heading_rad += a->yaw_rad;
+    if (insole_abs(fix->heading_rad) >= INSOLE_PI) {
+        wrap_heading(fix);
+    }
 }
 
 insole_status_t insole_foot_anchor_to_map(const insole_foot_anchor_t *anchor, insole_fix_t *fix)

@@ -53,7 +53,7 @@ insole_status_t insole_foot_tracker_imu(insole_foot_tracker_t *tracker, const in
     if (!tracker || !imu) {
         return INSOLE_ERR_NULL;
     }
-    if (tracker->finished || insole_ring_is_full(&tracker->zero_velocity.ring)) {
+    if (tracker->finished || insole_zero_velocity_is_full(&tracker->zero_velocity)) {
         tracker->counts.refused++;
         return tracker->finished ? INSOLE_ERR_STATE : INSOLE_ERR_ROOM;
     }
@@ -114,6 +114,9 @@ INSOLE_COLD static bool align(insole_foot_tracker_t *t, const insole_labelled_t 
 /* The first attitude: from a rest as good as it gets, from a stance of a walk as told. */
 INSOLE_COLD static void align_first(insole_foot_tracker_t *t, const insole_labelled_t *s)
 {
+    if (t->counts.fixes == 0u) {
+        (void)insole_foot_anchor_init(&t->anchor, t->config.yaw_drift_radps, s->imu.t_us);
+    }
     bool rest = s->plain && s->imu.t_us - t->still_since_us > 0u && t->still_bias.rests > 0u;
     insole_real_t tilt = rest ? t->zupt_ekf.config.sigma_tilt_rad : t->config.sigma_moving_tilt_rad;
     insole_vec3_t mean_accel;
@@ -305,7 +308,7 @@ INSOLE_COLD static bool cross_gap(insole_foot_tracker_t *t, insole_labelled_t *s
 /* The foot stands for the first time after a gap: what lies before is left behind. */
 INSOLE_APART static void leave_gap(insole_foot_tracker_t *t, uint64_t t_us)
 {
-    if (t->was_still && !t->coasting) {
+    if (!t->coasting) {
         insole_fix_t fix;
         make_fix(t, &fix, t_us);
         (void)insole_foot_anchor_renew(&t->anchor, &fix, *position_n(t), t->gap_turn_rad2);
@@ -348,8 +351,10 @@ static bool advance(insole_foot_tracker_t *t, insole_labelled_t *s)
         align_first(t, s);
     }
     t->counts.fixes++;
-    t->counts.still += s->still ? 1u : 0u;
-    t->counts.stances += s->still && !t->was_still ? 1u : 0u;
+    if (s->still) {
+        t->counts.still++;
+        t->counts.stances += t->was_still ? 0u : 1u;
+    }
     t->was_still = s->still;
     return stride_ended;
 }
@@ -359,11 +364,8 @@ INSOLE_APART INSOLE_FLAT static insole_status_t use(insole_foot_tracker_t *t, in
 {
     insole_labelled_t s;
     (void)insole_zero_velocity_next(&t->zero_velocity, &s);
-    if (t->counts.fixes == 0u) {
-        (void)insole_foot_anchor_init(&t->anchor, t->config.yaw_drift_radps, s.imu.t_us);
-    }
     bool stride_ended = advance(t, &s);
-    if (t->gap_turn_rad2 > ZERO) {
+    if (s.still && t->gap_turn_rad2 > ZERO) {
         leave_gap(t, s.imu.t_us);
     }
     if (t->has_start) {

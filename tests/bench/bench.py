@@ -28,6 +28,7 @@ COLUMNS = ("host", "m4", "m4_max")
 CYCLES = "m4_cycles"
 ESTIMATED = ("insole_screen_push", "insole_still_bias_push", "insole_zero_velocity_push_next",
              "insole_zupt_ekf_predict_9", "insole_zupt_ekf_predict_12",
+             "insole_zupt_ekf_settle_9", "insole_zupt_ekf_settle_12",
              "insole_zupt_ekf_correct_9", "insole_zupt_ekf_correct_12",
              "insole_foot_tracker_imu_next", "insole_foot_tracker_imu_next_9",
              "insole_foot_tracker_imu_next_9_moving", "insole_foot_tracker_imu_next_9_corrected",

@@ -17,6 +17,9 @@ TITLES = {
     "insole_zero_velocity_push_next": "adaptive stance detector, a sample",
     "insole_zupt_ekf_predict_9": "filter with 9 states, predict",
     "insole_zupt_ekf_predict_12": "filter with 12 states, predict",
+    "insole_zupt_ekf_settle_9":
+        "of these with 9 states, the covariance carried on with each eighth sample",
+    "insole_zupt_ekf_settle_12": "the same with 12",
     "insole_zupt_ekf_correct_9": "filter with 9 states, zero-velocity correction",
     "insole_zupt_ekf_correct_12": "filter with 12 states, zero-velocity correction",
     "insole_foot_tracker_imu_next": "the whole tracker, a sample of a walk (12 states)",

@@ -23,6 +23,7 @@ START_TEST(spans_are_right_to_the_last_digit)
         double expected_s = (double)SPANS_US[i] * 1.0e-6;
         double tolerance_s = 1.5 * (double)INSOLE_REAL_EPSILON * expected_s;
         ASSERT_NEAR(insole_seconds(NOW_US, NOW_US + SPANS_US[i]), expected_s, tolerance_s, "s");
+        ASSERT_NEAR(insole_seconds_of(SPANS_US[i]), expected_s, tolerance_s, "s");
     }
 }
 END_TEST

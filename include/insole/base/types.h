@@ -16,6 +16,16 @@
 extern "C" {
 #endif
 
+/** In halves, each of which a processor converts; the upper one is most often empty. */
+static inline insole_real_t insole_seconds_of(uint64_t us)
+{
+    insole_real_t all_us = (insole_real_t)(uint32_t)us;
+    if (us >> 32 != 0u) {
+        all_us += (insole_real_t)(uint32_t)(us >> 32) * INSOLE_R(4294967296.0);
+    }
+    return all_us * INSOLE_R(1.0e-6);
+}
+
 /** From one time stamp to a later one. */
 insole_real_t insole_seconds(uint64_t from_us, uint64_t to_us);
 

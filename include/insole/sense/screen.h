@@ -97,9 +97,8 @@ typedef struct {
 typedef struct {
     insole_screen_config_t config;
     insole_screen_counts_t counts;
-    uint32_t gap_us, hold_us, least_us;      /**< settings; the shortest interval that goes out */
-    insole_real_t calm_accel2, calm_gyro2;   /**< squares of the lengths below which all is calm */
-    insole_real_t spike_accel2, spike_gyro2; /**< squares of the settings */
+    uint32_t gap_us, hold_us, least_us;    /**< settings; the shortest interval that goes out */
+    insole_real_t calm_accel2, calm_gyro2; /**< squares of the lengths below which all is calm */
     insole_even_clock_t clock;
     insole_screen_slot_t slots[2]; /**< the sample that waits for its successor, the one before */
     uint32_t newest;               /**< slot of the former */

@@ -15,13 +15,12 @@
 extern "C" {
 #endif
 
-/** Not worth looking at unless `middle` is this far from one of its neighbours.
- *  @param limit2  square of the distance */
+/** Not worth asking further unless `middle` is this far from the one before. */
 static inline bool insole_spike_may_be(const insole_vec3_t *before, const insole_vec3_t *middle,
-                                       insole_real_t limit2)
+                                       insole_real_t limit)
 {
     insole_vec3_t rise = insole_vec3_sub(*middle, *before);
-    return !(insole_vec3_norm2(rise) <= limit2);
+    return !(insole_vec3_norm2(rise) <= insole_square(limit));
 }
 
 /** Axes of `middle` that are a spike get the mean of their neighbours.

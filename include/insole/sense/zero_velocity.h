@@ -136,6 +136,12 @@ typedef struct {
 insole_status_t insole_zero_velocity_init(insole_zero_velocity_t *zv,
                                           const insole_zero_velocity_config_t *config);
 
+/** No sample has room until one is taken out. */
+static inline bool insole_zero_velocity_is_full(const insole_zero_velocity_t *zv)
+{
+    return insole_ring_count(&zv->ring) >= INSOLE_STANCE_RING;
+}
+
 /** Takes a sample. `tag` travels with it.
  *  @return INSOLE_ERR_TIME, INSOLE_ERR_VALUE, INSOLE_ERR_STATE after finish, INSOLE_ERR_ROOM when
  *          the delay line is full: take some out first */

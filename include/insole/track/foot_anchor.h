@@ -61,11 +61,23 @@ insole_status_t insole_foot_anchor_follow(insole_foot_anchor_t *anchor, insole_v
 insole_status_t insole_foot_anchor_renew(insole_foot_anchor_t *anchor, const insole_fix_t *fix_m,
                                          insole_vec3_t position_n_m, insole_real_t turn_rad2);
 
+/** As insole_foot_anchor_put. Nothing is checked. */
+void insole_foot_anchor_place(const insole_foot_anchor_t *anchor, const insole_vec3_t *position_n_m,
+                              const insole_sym3_t *cov_n_m2, insole_fix_t *fix);
+
 /** A fix on the map of a place in n. Time, heading (n) and its variance are in `fix` already; its
  *  state stays. @return INSOLE_ERR_NULL */
-insole_status_t insole_foot_anchor_put(const insole_foot_anchor_t *anchor,
-                                       const insole_vec3_t *position_n_m,
-                                       const insole_sym3_t *cov_n_m2, insole_fix_t *fix);
+static inline insole_status_t insole_foot_anchor_put(const insole_foot_anchor_t *anchor,
+                                                     const insole_vec3_t *position_n_m,
+                                                     const insole_sym3_t *cov_n_m2,
+                                                     insole_fix_t *fix)
+{
+    if (!anchor || !position_n_m || !cov_n_m2 || !fix) {
+        return INSOLE_ERR_NULL;
+    }
+    insole_foot_anchor_place(anchor, position_n_m, cov_n_m2, fix);
+    return INSOLE_OK;
+}
 
 /** The same for a fix that is in n as a whole. */
 insole_status_t insole_foot_anchor_to_map(const insole_foot_anchor_t *anchor, insole_fix_t *fix);
