@@ -54,12 +54,12 @@ insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_
 /* The sample that waits for its successor, and the slot of the one before it. */
 static insole_screen_slot_t *pending(insole_screen_t *s)
 {
-    return &s->slots[s->newest];
+    return s->newest != 0u ? &s->slots[1] : &s->slots[0];
 }
 
 static insole_screen_slot_t *before(insole_screen_t *s)
 {
-    return &s->slots[s->newest ^ 1u];
+    return s->newest != 0u ? &s->slots[0] : &s->slots[1];
 }
 
 /* ---- fields ----------------------------------------------------------------------------- */
@@ -340,12 +340,9 @@ INSOLE_COLD static const insole_clean_t *take_doubtful(insole_screen_t *s, const
     return out;
 }
 
-INSOLE_FLAT const insole_clean_t *insole_screen_take(insole_screen_t *screen,
+INSOLE_FLAT const insole_clean_t *insole_screen_pass(insole_screen_t *screen,
                                                      const insole_imu_t *raw, insole_clean_t *room)
 {
-    if (!screen || !raw || !room) {
-        return NULL;
-    }
     insole_screen_t *s = screen;
     insole_screen_look_t look = look_at(s, raw);
     insole_screen_slot_t *last = pending(s), *slot = before(s);

@@ -190,12 +190,14 @@ INSOLE_APART static void note_stance(insole_zero_velocity_t *zv, uint32_t t_us,
     zv->has_stance = true;
 }
 
-static void note_plain(insole_zero_velocity_t *zv, uint32_t t_us)
+/* A still sample by threshold; the first after others is a stance of its own. */
+INSOLE_APART static void note_plain(insole_zero_velocity_t *zv, insole_stance_slot_t *k)
 {
-    if (!zv->has_still || t_us - zv->last_still_us > SHORTEST_PERIOD_US) {
-        note_stance(zv, t_us, zv->config.plain_threshold);
+    k->label = LABEL_STILL | LABEL_PLAIN;
+    if (!zv->has_still || k->t_us - zv->last_still_us > SHORTEST_PERIOD_US) {
+        note_stance(zv, k->t_us, zv->config.plain_threshold);
     }
-    zv->last_still_us = t_us;
+    zv->last_still_us = k->t_us;
     zv->has_still = true;
 }
 
@@ -228,8 +230,7 @@ static void judge_adaptive(insole_zero_velocity_t *zv, uint32_t number)
 {
     insole_stance_slot_t *k = slot(zv, number);
     if (k->statistic < zv->config.plain_threshold) {
-        k->label = LABEL_STILL | LABEL_PLAIN;
-        note_plain(zv, k->t_us);
+        note_plain(zv, k);
     } else if (k->statistic < zv->config.guaranteed_threshold && is_guaranteed(zv, number)) {
         note_stance(zv, k->t_us, k->statistic);
         spread(zv, number);
@@ -251,8 +252,7 @@ INSOLE_APART static void judge_two_step(insole_zero_velocity_t *zv, uint32_t num
 {
     insole_stance_slot_t *k = slot(zv, number);
     if (two_step_statistic(&zv->config, k) < ONE) {
-        k->label = LABEL_STILL | LABEL_PLAIN;
-        note_plain(zv, k->t_us);
+        note_plain(zv, k);
         return;
     }
     for (uint32_t i = number + 1u; zv->has_still && i != zv->measured; i++) {
@@ -275,8 +275,7 @@ static void judge(insole_zero_velocity_t *zv, uint32_t number)
     } else if (zv->config.detector == INSOLE_DETECT_TWO_STEP) {
         judge_two_step(zv, number);
     } else if (k->statistic < zv->threshold) {
-        k->label = LABEL_STILL | LABEL_PLAIN;
-        note_plain(zv, k->t_us);
+        note_plain(zv, k);
     }
 }
 
@@ -377,14 +376,8 @@ INSOLE_COLD insole_status_t insole_zero_velocity_finish(insole_zero_velocity_t *
     return INSOLE_OK;
 }
 
-insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out)
+void insole_zero_velocity_give(insole_zero_velocity_t *zv, insole_labelled_t *out)
 {
-    if (!zv || !out) {
-        return INSOLE_ERR_NULL;
-    }
-    if (!insole_zero_velocity_has_next(zv)) {
-        return INSOLE_ERR_STATE;
-    }
     const insole_stance_slot_t *s = slot(zv, zv->ring.begin++);
     uint32_t newest_high = (uint32_t)(zv->newest_us >> 32);
     uint32_t high_us = newest_high - (uint16_t)(newest_high - s->high_us);
@@ -395,5 +388,4 @@ insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_lab
     out->tag = s->tag;
     out->still = (s->label & LABEL_STILL) != 0u;
     out->plain = (s->label & LABEL_PLAIN) != 0u;
-    return INSOLE_OK;
 }

@@ -363,7 +363,7 @@ static bool advance(insole_foot_tracker_t *t, insole_labelled_t *s)
 INSOLE_APART INSOLE_FLAT static insole_status_t use(insole_foot_tracker_t *t, insole_fix_t *fix)
 {
     insole_labelled_t s;
-    (void)insole_zero_velocity_next(&t->zero_velocity, &s);
+    insole_zero_velocity_give(&t->zero_velocity, &s);
     bool stride_ended = advance(t, &s);
     if (s.still && t->gap_turn_rad2 > ZERO) {
         leave_gap(t, s.imu.t_us);

@@ -26,7 +26,7 @@ TOLERANCE = 0.03
 SKIPPED = 77
 COLUMNS = ("host", "m4", "m4_max")
 CYCLES = "m4_cycles"
-ESTIMATED = ("insole_screen_push", "insole_still_bias_push", "insole_zero_velocity_push_next",
+ESTIMATED = ("insole_screen_push", "insole_still_bias_take", "insole_zero_velocity_push_next",
              "insole_zupt_ekf_predict_9", "insole_zupt_ekf_predict_12",
              "insole_zupt_ekf_settle_9", "insole_zupt_ekf_settle_12",
              "insole_zupt_ekf_correct_9", "insole_zupt_ekf_correct_12",

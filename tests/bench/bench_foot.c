@@ -25,10 +25,10 @@ static void begin_rest(void)
     insole_still_bias_init(&rest, &insole_still_bias_defaults);
 }
 
-static void call_insole_still_bias_push(uint32_t call)
+static void call_insole_still_bias_take(uint32_t call)
 {
     (void)call;
-    insole_still_bias_push(&rest, &bench_imu);
+    insole_still_bias_take(&rest, &bench_imu);
     bench_take_vec3(0u, rest.gyro_bias_radps);
 }
 
@@ -172,8 +172,8 @@ static void call_insole_foot_tracker_imu_next_9(uint32_t call)
 static const bench_case_t cases[] = {
     {"insole_screen_push", BENCH_WALK, begin_screen, bench_make_sample, call_insole_screen_push,
      NULL},
-    {"insole_still_bias_push", BENCH_WALK, begin_rest, bench_make_sample,
-     call_insole_still_bias_push, NULL},
+    {"insole_still_bias_take", BENCH_WALK, begin_rest, bench_make_sample,
+     call_insole_still_bias_take, NULL},
     {"insole_zero_velocity_push_next", BENCH_WALK, begin_stance, bench_make_sample,
      call_insole_zero_velocity_push_next, NULL},
     {"insole_zupt_ekf_predict_9", BENCH_WALK, begin_nine, bench_make_sample,

@@ -13,7 +13,7 @@ import sys
 BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
 TITLES = {
     "insole_screen_push": "screen, a sample",
-    "insole_still_bias_push": "rest bias, a sample",
+    "insole_still_bias_take": "rest bias, a sample",
     "insole_zero_velocity_push_next": "adaptive stance detector, a sample",
     "insole_zupt_ekf_predict_9": "filter with 9 states, predict",
     "insole_zupt_ekf_predict_12": "filter with 12 states, predict",

@@ -124,11 +124,18 @@ insole_status_t insole_screen_init(insole_screen_t *screen, const insole_screen_
 insole_status_t insole_screen_push(insole_screen_t *screen, const insole_imu_t *raw,
                                    insole_clean_t *clean);
 
+/** As insole_screen_take, for what is not NULL. */
+const insole_clean_t *insole_screen_pass(insole_screen_t *screen, const insole_imu_t *raw,
+                                         insole_clean_t *room);
+
 /** The same, but the sample need not be copied. @param[out] room  for one that has to be made
  *  @return the clean sample, in `room` or until the next call in the screen; NULL: none this time,
  *          or an argument was NULL */
-const insole_clean_t *insole_screen_take(insole_screen_t *screen, const insole_imu_t *raw,
-                                         insole_clean_t *room);
+static inline const insole_clean_t *
+insole_screen_take(insole_screen_t *screen, const insole_imu_t *raw, insole_clean_t *room)
+{
+    return screen && raw && room ? insole_screen_pass(screen, raw, room) : 0;
+}
 
 /** The sample that was held back, and what waits to be averaged; call until it answers
  *  INSOLE_ERR_STATE. Samples that are pushed later are ignored. */

@@ -158,8 +158,22 @@ static inline bool insole_zero_velocity_has_next(const insole_zero_velocity_t *z
     return zv->ring.begin != zv->released;
 }
 
+/** As insole_zero_velocity_next where there is a sample. Nothing is checked. */
+void insole_zero_velocity_give(insole_zero_velocity_t *zv, insole_labelled_t *out);
+
 /** The oldest sample whose label is certain. @return INSOLE_ERR_STATE when there is none yet */
-insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv, insole_labelled_t *out);
+static inline insole_status_t insole_zero_velocity_next(insole_zero_velocity_t *zv,
+                                                        insole_labelled_t *out)
+{
+    if (!zv || !out) {
+        return INSOLE_ERR_NULL;
+    }
+    if (!insole_zero_velocity_has_next(zv)) {
+        return INSOLE_ERR_STATE;
+    }
+    insole_zero_velocity_give(zv, out);
+    return INSOLE_OK;
+}
 
 /** No more samples will come: those still held are judged by what there is. */
 insole_status_t insole_zero_velocity_finish(insole_zero_velocity_t *zv);
