@@ -105,6 +105,7 @@ INSOLE_COLD static bool align(insole_foot_tracker_t *t, const insole_labelled_t 
     }
     *mean_accel = insole_vec3_scale(t->still_accel, INSOLE_R(1.0) / (insole_real_t)t->still_count);
     t->still_count = 0u;
+    t->unmeasured_s = ZERO; /* its velocity is none */
     t->zupt_ekf.gravity_mps2 = t->still_bias.gravity_mps2;
     return insole_zupt_ekf_align(&t->zupt_ekf, *mean_accel, sigma_tilt_rad, ZERO, s->imu.t_us) ==
            INSOLE_OK;
@@ -148,13 +149,13 @@ INSOLE_COLD static void level_floor(insole_foot_tracker_t *t)
     }
 }
 
-/* A stance is measured where it begins, and then from time to time. */
-static void measure_stance(insole_foot_tracker_t *t)
+/* A stance is measured where it begins, after a gap in it, and else from time to time. */
+static void measure_stance(insole_foot_tracker_t *t, bool after_gap)
 {
     insole_zupt_ekf_t *ekf = &t->zupt_ekf;
     t->unmeasured_s = (t->was_still ? t->unmeasured_s : ZERO) + ekf->dt_s;
     bool is_due = t->unmeasured_s + INSOLE_R(0.5) * ekf->dt_s >= t->config.correct_every_s;
-    if (t->was_still && !is_due) {
+    if (t->was_still && !after_gap && !is_due) {
         return;
     }
     if (insole_zupt_ekf_correct(ekf, t->unmeasured_s, 0) == INSOLE_OK) {
@@ -170,7 +171,7 @@ static void navigate(insole_foot_tracker_t *t, insole_labelled_t *s)
     t->zupt_ekf.gravity_mps2 = t->still_bias.gravity_mps2;
     (void)insole_zupt_ekf_predict(&t->zupt_ekf, &s->imu, s->tag & INSOLE_MARK_CLIP);
     if (s->still) {
-        measure_stance(t);
+        measure_stance(t, (s->tag & INSOLE_MARK_GAP) != 0u);
         t->stance_q = t->zupt_ekf.q;
         t->stance_us = s->imu.t_us;
     } else if (t->was_still) {

@@ -53,7 +53,7 @@ typedef struct {
     insole_vec3_t p, v, a, b;
 } insole_zupt_error_t;
 
-/** Phi of one sample, or of several in a row. */
+/** Phi of one sample, or of several in a row; of none when all is zero. */
 typedef struct {
     insole_real_t time_s;
     insole_vec3_t u_mps; /**< U: integral of the specific force, n */

@@ -9,7 +9,7 @@
  *
  *      static insole_zupt_ekf_t foot;
  *      insole_zupt_ekf_init(&foot, &insole_zupt_ekf_defaults);
- *      insole_zupt_ekf_align(&foot, mean_accel_while_standing_mps2, t_us);
+ *      insole_zupt_ekf_align(&foot, mean_accel_while_standing_mps2, sigma_tilt_rad, yaw_rad, t_us);
  *      on each sample:
  *          insole_zupt_ekf_predict(&foot, &imu, 0);
  *          if (still) insole_zupt_ekf_correct(&foot, foot.dt_s, &nis);

@@ -22,9 +22,9 @@
  *
  *  Backwards over the history runs the adjoint lambda of the error, zero at the newest sample:
  *
- *      x_s = x - P lambda        at a sample: state, covariance and correction as the filter left
- * them lambda -= H' (y - H x_s) / r            over a correction: what is still unexplained of y
- *      lambda = Phi' lambda                    over an interval
+ *      x_s = x - P lambda              at a sample: state and covariance as the filter left them
+ *      lambda -= H' (y - H x_s) / r    over a correction: what is still unexplained of y
+ *      lambda = Phi' lambda            over an interval
  *
  *  and its covariance Lambda, which is what P_s = P - P Lambda P has gained. The noise that the
  *  filter adds in blocks is in P and needs no thought. Nothing passes an alignment or a gap.
@@ -79,7 +79,7 @@ insole_status_t insole_zupt_smooth_init(insole_zupt_smooth_t *smooth, insole_zup
 /** Remembers the filter's present state; once per sample, after its corrections. A sample that was
  *  left out cuts the history in two.
  *  @return INSOLE_ERR_ROOM when all nodes are in use, INSOLE_ERR_STATE before the filter is
- * aligned, INSOLE_ERR_TIME when the filter has not moved on since the last call */
+ *          aligned, INSOLE_ERR_TIME when the filter has not moved on since the last call */
 insole_status_t insole_zupt_smooth_push(insole_zupt_smooth_t *smooth, const insole_zupt_ekf_t *ekf);
 
 /** Smooths the whole history, in time proportional to it, and makes all but the newest `keep`
