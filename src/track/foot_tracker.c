@@ -155,13 +155,11 @@ static void measure_stance(insole_foot_tracker_t *t, bool after_gap)
     insole_zupt_ekf_t *ekf = &t->zupt_ekf;
     t->unmeasured_s = (t->was_still ? t->unmeasured_s : ZERO) + ekf->dt_s;
     bool is_due = t->unmeasured_s + INSOLE_R(0.5) * ekf->dt_s >= t->config.correct_every_s;
-    if (t->was_still && !after_gap && !is_due) {
-        return;
+    if (is_due || after_gap || !t->was_still) {
+        bool is_taken = insole_zupt_ekf_correct(ekf, t->unmeasured_s, 0) == INSOLE_OK;
+        t->counts.corrections += is_taken ? 1u : 0u;
+        t->unmeasured_s = ZERO;
     }
-    if (insole_zupt_ekf_correct(ekf, t->unmeasured_s, 0) == INSOLE_OK) {
-        t->counts.corrections++;
-    }
-    t->unmeasured_s = ZERO;
 }
 
 /* The sample loses its gyro bias. */
