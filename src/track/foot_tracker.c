@@ -105,7 +105,7 @@ INSOLE_COLD static bool align(insole_foot_tracker_t *t, const insole_labelled_t 
     }
     *mean_accel = insole_vec3_scale(t->still_accel, INSOLE_R(1.0) / (insole_real_t)t->still_count);
     t->still_count = 0u;
-    t->unmeasured_s = t->stood_s = ZERO; /* its velocity is none */
+    t->unmeasured_s = ZERO; /* its velocity is none */
     t->zupt_ekf.gravity_mps2 = t->still_bias.gravity_mps2;
     return insole_zupt_ekf_align(&t->zupt_ekf, *mean_accel, sigma_tilt_rad, ZERO, s->imu.t_us) ==
            INSOLE_OK;
@@ -149,14 +149,13 @@ INSOLE_COLD static void level_floor(insole_foot_tracker_t *t)
     }
 }
 
-/* At its begin, after a gap, and later: at first often, for then each measurement tells much. */
+/* A stance is measured where it begins, after a gap in it, and else from time to time. */
 static void measure_stance(insole_foot_tracker_t *t, bool after_gap)
 {
     insole_zupt_ekf_t *ekf = &t->zupt_ekf;
     t->unmeasured_s = (t->was_still ? t->unmeasured_s : ZERO) + ekf->dt_s;
-    t->stood_s = t->was_still ? t->stood_s + ekf->dt_s : ZERO;
-    insole_real_t every_s = insole_min(t->config.correct_every_s, INSOLE_R(0.4) * t->stood_s);
-    if (t->unmeasured_s + INSOLE_R(0.5) * ekf->dt_s >= every_s || after_gap) {
+    bool is_due = t->unmeasured_s + INSOLE_R(0.5) * ekf->dt_s >= t->config.correct_every_s;
+    if (is_due || after_gap || !t->was_still) {
         bool is_taken = insole_zupt_ekf_correct(ekf, t->unmeasured_s, 0) == INSOLE_OK;
         t->counts.corrections += is_taken ? 1u : 0u;
         t->unmeasured_s = ZERO;

@@ -32,7 +32,6 @@ typedef struct {
     insole_foot_counts_t before;
     uint64_t last_us;  /* sample */
     uint64_t known_us; /* since when nothing was measured of the velocity */
-    uint64_t begin_us; /* of the stance, or of what is known of it */
     uint32_t measured;
     worst_t due, sure;
 } watch_t;
@@ -47,12 +46,10 @@ static void watch(watch_t *w, double gap_s, double every, const insole_fix_t *fi
     bool is_measured = now.corrections > before->corrections;
     if (begins) {
         w->known_us = w->last_us;
-        w->begin_us = fix->t_us;
     }
     double speaks_s = at_s - (double)w->known_us * 1e-6;
     if (fix->state == INSOLE_FIX_TRACK && !is_aligned) {
-        double stood_s = at_s - (double)w->begin_us * 1e-6;
-        bool is_due = dt_s > gap_s || speaks_s + 0.5 * dt_s >= fmin(every, 0.4 * stood_s);
+        bool is_due = begins || dt_s > gap_s || speaks_s + 0.5 * dt_s >= every;
         worst_require(&w->due, is_measured == (is_still && is_due), at_s);
     }
     if (is_measured) {
@@ -64,15 +61,12 @@ static void watch(watch_t *w, double gap_s, double every, const insole_fix_t *fi
     if (is_measured || is_aligned) {
         w->known_us = fix->t_us;
     }
-    if (is_aligned) {
-        w->begin_us = fix->t_us;
-    }
     w->before = now;
     w->last_us = fix->t_us;
 }
 
-/* At once where a stance begins and after a gap in it, else when it is due, at first more often;
- * each speaks for the time since the last, or since the foot was found to stand after a gap. */
+/* At once where a stance begins and after a gap in it, else when it is due; each speaks for the
+ * time since the last, or since the foot was found to stand after a gap. */
 START_TEST(measurements_speak_for_the_time_that_nothing_was_measured)
 {
     const int gap = _i % GAPS, often = _i / GAPS % EVERY, rate = _i / GAPS / EVERY;

@@ -30,9 +30,9 @@ typedef enum {
     KEY(REAL, align_s, 0.08, 0.0, 2.0, "s", "longest stance whose mean gives the first attitude") \
     KEY(REAL, sigma_moving_tilt_rad, 0.05, 0.001, 1.0, "rad",                                     \
         "1-sigma of roll and pitch after alignment on a stance of a walk")                        \
-    KEY(REAL, correct_every_s, 0.04, 0.0, 0.2, "s",                                               \
-        "time between the measurements of a stance's velocity, but for its begin; 0 = on each"    \
-        " sample")                                                                                \
+    KEY(REAL, correct_every_s, 0.02, 0.0, 0.2, "s",                                               \
+        "time between the measurements of a stance's velocity; 0 = on each sample;"               \
+        " a runner wants 0.05 or less")                                                           \
     KEY(REAL, floor_step_m, 0.05, 0.0, 1.0, "m",                                                  \
         "stances that differ less in height stand on the same floor; 0 = off")                    \
     KEY(REAL, sigma_floor_m, 0.01, 0.001, 1.0, "m", "1-sigma of the evenness of that floor")      \

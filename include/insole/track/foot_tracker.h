@@ -53,7 +53,6 @@ typedef struct {
     insole_quat_t first_q;      /**< attitude when the foot was aligned */
     insole_quat_t stance_q;     /**< in the last stance */
     uint64_t stance_us;         /**< last sample of it */
-    insole_real_t stood_s;      /**< since its first sample */
     insole_real_t unmeasured_s; /**< of it, since its velocity was measured */
     insole_real_t floor_m;      /**< height of the floor being walked on */
 
