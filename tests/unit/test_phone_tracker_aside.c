@@ -109,6 +109,16 @@ static rig_case_t case_of(const grip_t *grip)
     return c;
 }
 
+/* Found by fixes, from scans that scatter so much. */
+static rig_case_t searching_case(const grip_t *grip, double sigma_db)
+{
+    rig_case_t c = case_of(grip);
+    hear_on_the_way(1.0, sigma_db);
+    c.has_start = false;
+    c.hears = true;
+    return c;
+}
+
 /* ---- what is seen of a run ---------------------------------------------------------------- */
 
 /* When the carrying position was told; when it was that the phone points aside, and the offset
@@ -355,10 +365,7 @@ START_TEST(a_search_begins_anew)
                                                    &insole_ml_shift_calls};
     const double aside_rad = ASIDES_RAD[_i % ASIDES];
     grip_t grip = held(aside_rad);
-    rig_case_t c = case_of(&grip);
-    hear_on_the_way(1.0, 3.0);
-    c.has_start = false;
-    c.hears = true;
+    rig_case_t c = searching_case(&grip, 3.0);
     c.filter = filters[_i / ASIDES];
     notice_t seen = run_watching(&c);
     ck_assert_uint_eq(rig.phone.place.starts, 1u);
@@ -372,10 +379,7 @@ START_TEST(an_offset_that_fixes_found_is_turned)
 {
     const double aside_rad = ASIDES_RAD[_i];
     grip_t grip = held(aside_rad);
-    rig_case_t c = case_of(&grip);
-    hear_on_the_way(1.0, 1.0);
-    c.has_start = false;
-    c.hears = true;
+    rig_case_t c = searching_case(&grip, 1.0);
     c.config.auto_start.refine_rad = INSOLE_R(3.2); /* after five fixes */
     notice_t seen = run_watching(&c);
     ck_assert_uint_eq(rig.phone.place.starts, 2u);
@@ -389,10 +393,8 @@ START_TEST(a_start_by_fixes_and_compass_is_walked_anew)
 {
     const double aside_rad = ASIDES_RAD[_i];
     grip_t grip = held(aside_rad);
-    rig_case_t c = case_of(&grip);
-    hear_on_the_way(1.0, 3.0);
-    c.has_start = false;
-    c.hears = c.sees = true;
+    rig_case_t c = searching_case(&grip, 3.0);
+    c.sees = true;
     notice_t seen = run_watching(&c);
     ck_assert_uint_eq(rig.phone.place.starts, 2u);
     ASSERT_AT_MOST(error_of(seen.noticed), 0.5 * error_of(seen.noticed - 1u), "m");

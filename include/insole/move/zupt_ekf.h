@@ -170,8 +170,8 @@ insole_status_t insole_zupt_ekf_settle(insole_zupt_ekf_t *ekf);
  *  @param still_s   what it speaks for: the time since the last one, or since the foot stands; up
  *                   to 1 s. As sure as `sigma_zupt_mps` for 5 ms, and more so for longer.
  *  @param[out] nis  normalised innovation squared, chi2(3) when consistent; NULL to skip
- *  @return INSOLE_ERR_STATE before alignment or when the innovation's covariance is not positive,
- *          INSOLE_ERR_VALUE for a time out of its range */
+ *  @return INSOLE_ERR_STATE before alignment or when the innovation's covariance is not positive
+ *          (then P has come up to the last sample), INSOLE_ERR_VALUE for a time out of its range */
 insole_status_t insole_zupt_ekf_correct(insole_zupt_ekf_t *ekf, insole_real_t still_s,
                                         insole_real_t *nis);
 
